@@ -12,7 +12,7 @@ from pathsmooth.errors import PathSmoothError
 from pathsmooth.exact import solve_exact
 from pathsmooth.problem import Problem
 from pathsmooth.solution import Solution
-from pathsmooth.solver import solve, solve_tightest
+from pathsmooth.solver import solve, solve_tightest, tightening
 from surefoot import __version__
 from surefoot.compile_notice import announce
 
@@ -26,6 +26,7 @@ __all__ = [
     "solve",
     "solve_exact",
     "solve_tightest",
+    "tightening",
 ]
 
 announce()

@@ -23,6 +23,7 @@ from pathsmooth.packing import keep_near, with_bound
 from pathsmooth.placement import cover
 from pathsmooth.problem import SLACK, Problem
 from pathsmooth.solution import COMPLETE, INFEASIBLE, ITERATION_LIMIT, Solution
+from surefoot.slices import Slices, finish
 
 SLACK_OF_BOUND = 0.03
 """Relative amount by which the true curvature of a complete solution may exceed the bound."""
@@ -78,8 +79,10 @@ def solve_with_bound(
     without: solution of the problem without the bound, returned if the bound cannot be met. state: (4, n, 2)
     of an earlier solution, to start from.
     """
-    trial = _rounds(problem, limit, tolerance, state)
-    if trial.complete or limit is not None:
+    if limit is not None:
+        return finish(limited(problem, limit, tolerance, state))
+    trial = finish(_rounds(problem, limit, tolerance, state))
+    if trial.complete:
         return _solution(trial)
     best = trial
     for fineness in SEARCHES:
@@ -95,17 +98,25 @@ def solve_with_bound(
             start = _from_curve(problem, curve, used)
         except PathSmoothError:  # the cells strayed from the corridor by more than their discs overlap
             continue
-        trial = _rounds(start, None, tolerance, None, free=True)
+        trial = finish(_rounds(start, None, tolerance, None, free=True))
         if not trial.complete:  # along a curve that nearly holds, the convex problem is nearly the true one
             points = trial.problem.targets + trial.displacements
             curve = np.column_stack([points, trial.problem.heights])
             start = _from_curve(trial.problem, curve, np.unique(trial.problem.segment_disc))
-            trial = _rounds(start, None, tolerance, None)
+            trial = finish(_rounds(start, None, tolerance, None))
         if trial.complete:
             return _solution(trial)
         if trial.worst < best.worst:
             best = trial
     return _solution(best)
+
+
+def limited(
+    problem: Problem, limit: int, tolerance: float, state: NDArray[np.float64] | None = None
+) -> Slices[Solution]:
+    """The same with a ``limit``, round by round."""
+    trial = yield from _rounds(problem, limit, tolerance, state)
+    return _solution(trial)
 
 
 def _rounds(
@@ -114,7 +125,7 @@ def _rounds(
     tolerance: float,
     state: NDArray[np.float64] | None,
     free: bool = False,
-) -> _Trial:
+) -> Slices[_Trial]:
     """Solve, spread the waypoints and tighten the bound where the curvature exceeds it, until it holds.
 
     Each round starts from the state of the round before; the first one is solved only roughly. free: each
@@ -140,6 +151,7 @@ def _rounds(
         )  # fmt: skip
         done += count
         left -= count
+        yield count * problem.count
         points = problem.targets + displacements
         excess = curvature(points) / bound
         trial = _Trial(problem, displacements, state, value, low, float(excess.max()), done)

@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pathsmooth import kernels
-from pathsmooth.bounded import solve_with_bound
+from pathsmooth.bounded import limited, solve_with_bound
 from pathsmooth.curvature import curvature
 from pathsmooth.errors import PathSmoothError
 from pathsmooth.problem import Problem
 from pathsmooth.solution import COMPLETE, INFEASIBLE, ITERATION_LIMIT, Solution
 from surefoot.kernels import allocating_kernel
+from surefoot.slices import Slices, finish
 
 MAX_ITERATIONS = 5000
 """Iterations after which `solve` gives up reaching the tolerance, where the caller sets no limit."""
@@ -80,7 +81,15 @@ def solve_tightest(
     Returns the solution under the last bound that was met, and True; without a bound, and False, if none was.
     The problem's own bound does not matter. Raises PathSmoothError as `solve` does.
     """
+    return finish(tightening(problem, bounds, iterations, tolerance))
+
+
+def tightening(
+    problem: Problem, bounds: Sequence[float], iterations: int, tolerance: float = 0.01
+) -> Slices[tuple[Solution, bool]]:
+    """What `solve_tightest` does, in slices. Yields iterations times waypoints after each round."""
     free = solve(replace(problem, max_curvature=None), None, tolerance)
+    yield free.iterations * problem.count
     if free.status == INFEASIBLE:
         return free, False
     bent, best, held = float(curvature(free.points).max()), free, False
@@ -91,7 +100,7 @@ def solve_tightest(
                 break
             best = replace(free, problem=bounded)
         else:
-            found = solve_with_bound(bounded, iterations, tolerance, free)
+            found = yield from limited(bounded, iterations, tolerance)
             if found.status != COMPLETE:
                 break
             best = found

@@ -57,7 +57,8 @@ class Event:
 
 @dataclass(frozen=True)
 class Departed(Event):
-    """The agent started along a path of ``length`` [m] to ``goal``, over obstacles that need ``skills``."""
+    """The agent started along a path of ``length`` [m] to ``goal``, over obstacles that need ``skills``. Of a
+    person that is the length of the shortest line, without run-ups: its path is still to be planned."""
 
     goal: Point
     length: float

@@ -7,6 +7,7 @@ join its line farther away.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,19 +48,17 @@ class SetLeg:
 
 def set_legs(
     route: Route, run_up: float, landing: float, spacing: float, start_direction: NDArray[np.float64] | None
-) -> list[SetLeg]:
-    """The legs of ``route``, with straight ends of ``run_up`` and ``landing`` [m] from the edges where there
-    is room, their points at most ``spacing`` [m] apart. ``start_direction``: (2,) of the body's motion, or
-    None.
+) -> Iterator[SetLeg]:
+    """The legs of ``route``, each made when its turn comes, with straight ends of ``run_up`` and ``landing``
+    [m] from the edges where there is room, their points at most ``spacing`` [m] apart. ``start_direction``:
+    (2,) of the body's motion, or None.
     """
     walked = route.walked()
     over = [_unit(route.waypoints[use.last] - route.waypoints[use.first]) for use in route.links]
     before = [None if start_direction is None else _unit(start_direction), *over]
-    set_ones = []
     for i, (points, after) in enumerate(zip(walked, [*over, None], strict=True)):
         first, last, onward = _ends(route, points, i, before[i], after, run_up, landing)
-        set_ones.append(_between(route, points, first, last, spacing, before[i], onward))
-    return set_ones
+        yield _between(route, points, first, last, spacing, before[i], onward)
 
 
 def _ends(

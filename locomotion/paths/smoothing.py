@@ -18,9 +18,13 @@ from locomotion.paths.gait_plan import LANDED, SET_OFF, braking_length
 from navmesh.obstacles.kinds import kind_of
 from navmesh.routes.route import Leg, Route
 from navmesh.routes.surface_projection import project_curve_to_surface
+from surefoot.slices import Slices, finish
 
-__all__ = ["RUNNING", "ObstacleAhead", "SmoothPath", "Smoothing", "smooth_route"]
+__all__ = [
+    "RUNNING", "ObstacleAhead", "SmoothPath", "Smoothing", "pulled_path", "smooth_route", "smoothing_route",
+]  # fmt: skip
 
+_LEG = 10_000  # work of setting a leg's ends and finding its corridor, in iterations times waypoints
 _ITERATIONS = 450  # per bound on curvature, a millisecond; an exhaustive search takes seconds
 
 
@@ -106,30 +110,42 @@ def smooth_route(
     start_direction: (2,) or (3,) direction in which the body is moving, or None.
     Raises `LocomotionError` for a route without waypoints.
     """
+    return finish(smoothing_route(route, smoothing, start_direction))
+
+
+def smoothing_route(
+    route: Route, smoothing: Smoothing = RUNNING, start_direction: ArrayLike | None = None
+) -> Slices[SmoothPath]:
+    """What `smooth_route` does, in slices. Yields the work of each in iterations of the solver times
+    waypoints."""
     if len(route.waypoints) < 2:
         raise LocomotionError(f"a route of status {route.status!r} has no path to smooth")
     heading = None if start_direction is None else np.asarray(start_direction, dtype=np.float64)
-    legs = set_legs(route, smoothing.run_up, smoothing.landing, smoothing.spacing, heading)
     pieces: list[NDArray[np.float64]] = []
-    crossings: list[tuple[int, NDArray[np.float64]]] = []
     bounded = True
+    legs = set_legs(route, smoothing.run_up, smoothing.landing, smoothing.spacing, heading)
     for i, leg in enumerate(legs):
-        points, held = _smooth_leg(leg.leg, smoothing, leg.before, leg.after)
+        yield _LEG
+        points, held = yield from _smooth_leg(leg.leg, smoothing, leg.before, leg.after)
         bounded = bounded and held
         pieces += [leg.behind, project_curve_to_surface(route.graph, points), leg.ahead]
-        if i < len(legs) - 1:
-            edge = _edge_point(route, i)
-            crossings.append((route.links[i].obstacle, edge))
-            start, end = route.waypoints[route.links[i].first], route.waypoints[route.links[i].last]
-            pieces.append(_over(start, edge, end))
+        pieces += _over(route, i)
     points = np.concatenate(pieces)
-    obstacles = tuple(_obstacle(route, points, index, edge) for index, edge in crossings)
-    return SmoothPath(points, obstacles, bounded)
+    return SmoothPath(points, _obstacles(route, points), bounded)
+
+
+def pulled_path(route: Route) -> SmoothPath:
+    """A route of status "complete" or "partial" as it is, without smoothing: its corners are sharp."""
+    pieces: list[NDArray[np.float64]] = []
+    for i, walked in enumerate(route.walked()):
+        pieces += [walked, *_over(route, i)]
+    points = np.concatenate(pieces)
+    return SmoothPath(points, _obstacles(route, points), bounded=False)
 
 
 def _smooth_leg(
     leg: Leg, smoothing: Smoothing, before: ArrayLike | None, after: ArrayLike | None
-) -> tuple[NDArray[np.float64], bool]:
+) -> Slices[tuple[NDArray[np.float64], bool]]:
     """Points of one leg, and whether they meet one of the bounds; end tangents are dropped first."""
     length = float(np.linalg.norm(np.diff(leg.waypoints[:, :2], axis=0), axis=1).sum())
     if length < 1e-3:
@@ -139,7 +155,7 @@ def _smooth_leg(
             leg.waypoints, leg.centers, leg.radii, spacing=smoothing.spacing, start_tangent=start,
             end_tangent=end, smoothness=smoothing.roundness,
         )  # fmt: skip
-        solution, held = pathsmooth.solve_tightest(problem, smoothing.curvatures, _ITERATIONS)
+        solution, held = yield from pathsmooth.tightening(problem, smoothing.curvatures, _ITERATIONS)
         if solution.status != "infeasible":
             return solution.points, held
     return leg.waypoints, False
@@ -157,23 +173,39 @@ def _edge_point(route: Route, index: int) -> NDArray[np.float64]:
     return np.array([point[0], point[1], position[2]])
 
 
-def _over(
-    start: NDArray[np.float64], edge: NDArray[np.float64], end: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """The line over an obstacle: level up to the edge, then level with the landing."""
-    direction = end - start
+def _over(route: Route, index: int) -> list[NDArray[np.float64]]:
+    """The line over the obstacle behind a leg, level up to the edge, then level with the landing; none behind
+    the last leg."""
+    if index == len(route.links):
+        return []
+    start, end = route.waypoints[route.links[index].first], route.waypoints[route.links[index].last]
+    edge, direction = _edge_point(route, index), end - start
     direction = direction / max(float(np.linalg.norm(direction[:2])), 1e-9)
     before = np.array([edge[0] - 1e-3 * direction[0], edge[1] - 1e-3 * direction[1], start[2]])
     after = np.array([edge[0] + 1e-3 * direction[0], edge[1] + 1e-3 * direction[1], end[2]])
-    return np.stack([before, after])
+    return [np.stack([before, after])]
+
+
+def _obstacles(route: Route, points: NDArray[np.float64]) -> tuple[ObstacleAhead, ...]:
+    """The obstacles that the path ``points`` (n, 3) crosses, as the route does."""
+    if not route.links:
+        return ()
+    steps = np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1)
+    arc = np.concatenate([[0.0], np.cumsum(steps)])
+    return tuple(
+        _obstacle(route, points, arc, use.obstacle, _edge_point(route, i))
+        for i, use in enumerate(route.links)
+    )
 
 
 def _obstacle(
-    route: Route, points: NDArray[np.float64], index: int, edge: NDArray[np.float64]
+    route: Route,
+    points: NDArray[np.float64],
+    arc: NDArray[np.float64],
+    index: int,
+    edge: NDArray[np.float64],
 ) -> ObstacleAhead:
     obstacles = route.graph.obstacles
-    steps = np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1)
-    arc = np.concatenate([[0.0], np.cumsum(steps)])
     nearest = int(np.argmin(np.linalg.norm(points[:, :2] - edge[:2], axis=1)))
     normal = obstacles.normal[index]
     forward = float((edge - points[nearest])[:2] @ -normal[:2])

@@ -1,10 +1,10 @@
 """Simulated persons in a world, each with a simulation of its own."""
 
+import hashlib
 import math
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,7 +14,7 @@ import numpy as np
 from locomotion import MOVING, PERSON_RULES, Ground, Human, HumanState, LocomotionError, load_run_skill
 from locomotion.avoidance.yielding import SPACING, Course
 from locomotion.body.person import CONTROL_DT
-from locomotion.body_events import PostureReached
+from locomotion.body_events import Arrived, GotStuck, MissedGoal, PostureReached, StrayedFromPath
 from locomotion.gaits.brake import load_brake_skill
 from locomotion.gaits.policy.skill import PolicySkill, load_policy
 from locomotion.gaits.residual.skill import load_brake_residual, load_landing_residual
@@ -26,8 +26,6 @@ from locomotion.human.human import BetweenGaits
 from locomotion.human.motion_start import moment_like, set_in_motion
 from locomotion.human.saved_state_check import check_person
 from locomotion.human.simulation import positions
-from locomotion.paths.departures import can_begin, leads
-from locomotion.paths.run_up_room import cramped_links
 from locomotion.postures.step_order import AT_REST
 from locomotion.preconditions.precondition import load_preconditions
 from locomotion.recorded.individual import by_hand
@@ -44,10 +42,11 @@ from locomotion.skills.registry import CLEARING
 from runtime.bodies.figure import Figure, Joints
 from runtime.bodies.joints import person_joints
 from runtime.bodies.obstacle_odds import odds_at
+from runtime.bodies.person_orders import ARRIVED, Order, OrdersState, PersonOrders
 from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
-from runtime.planning.planning import Beginning, NoWay, Plan, make_plan, way_holds
+from runtime.planning.planning import NoWay, Plan, way_holds
 from runtime.traffic.snapshot import foretold_on
 from surefoot.numeric import is_finite
 from surefoot.pausing import pause
@@ -60,7 +59,7 @@ _SPOTS, _BESIDE = np.array([-0.4, 0.0, 0.4, 0.8, 1.2]), 0.15  # [m] along its wa
 _UNEVEN = 0.02  # where the ground is no more than this [m] higher or lower
 _STEEP = 20.0  # [degrees] of ground that is worth mentioning
 _HESITATES = 0.4  # [s] at most, from a stand: less than half a step
-_HERE = 1e-3  # [m] long ways lead to where it is: one that moves has to come back there
+_ENDS = Arrived, GotStuck, MissedGoal, StrayedFromPath
 
 
 class _Learned(NamedTuple):
@@ -223,8 +222,15 @@ class People(Population):
         self._spare, self._unused = [], None
         for driver in self._drivers:
             driver.human.change_ground(self._level.ground)
+            driver.plan_again()
+
+    def change_zones(self) -> None:
+        for driver in self._drivers:
+            driver.plan_again()
 
     def tick(self) -> None:
+        for driver in self._drivers:
+            driver.go_on_planning()
         humans = [driver.human for driver in self._drivers]
         allotted = None if self._rehearsal_ticks is None else allot(humans, self._rehearsal_ticks)
 
@@ -242,7 +248,7 @@ class HumanDriver(Driver):
     ``hesitates``: [s] after which it sets out from a stand: people told the same do not step as one.
     ``style``: traits to be worn when it plays recorded motion."""
 
-    tries_other_ways = True
+    tries_other_ways = plans_in_slices = True
 
     def __init__(self, level: Level, human: Human) -> None:
         self._level, self.human = level, human
@@ -254,6 +260,8 @@ class HumanDriver(Driver):
         self.hesitates = 0.0
         self.style: dict[str, float] = {}
         self._fading: Fading | None = None
+        self._orders = PersonOrders(level, human)
+        self._former: tuple[Course | None] | None = None
 
     @property
     def simulated(self) -> Human:
@@ -269,7 +277,10 @@ class HumanDriver(Driver):
 
     @property
     def status(self) -> str:
-        return self.human.status
+        status = self.human.status
+        if self._orders.planning is None or status in MOVING or status == "fallen":
+            return status
+        return "walking" if self.human.on_feet.walks or self.human.held else "running"
 
     @property
     def position(self) -> np.ndarray:
@@ -281,12 +292,20 @@ class HumanDriver(Driver):
 
     @property
     def progress(self) -> float:
+        if self._orders.planning is not None:
+            return 0.0
         length = self.plans[-1].length if self.plans else 0.0
         return self.human.arc_length / length if length > 0.0 else 1.0
 
     @property
     def left(self) -> float:
+        if self._orders.planning is not None:
+            return self.plans[-1].length
         return self.plans[-1].length - self.human.arc_length if self.plans else 0.0
+
+    def take_note(self) -> None:
+        if self._orders.planning is not None:  # how the way that it is to leave ends is of no concern
+            self.events[:] = [event for event in self.events if not isinstance(event, _ENDS)]
 
     @property
     def hindrance(self) -> str:
@@ -434,101 +453,86 @@ class HumanDriver(Driver):
         return self._transforms_of(self._faded(pose, (share - 1.0) * CONTROL_DT))
 
     def plan(self, goals: np.ndarray) -> Plan:
-        return self._plan(goals, self.skills)
-
-    def _plan(
-        self, goals: np.ndarray, skills: Mapping[str, tuple[float, float]], closed: Sequence[str] = ()
-    ) -> Plan:
-        velocity = self.human.velocity[:2]
-        moving = velocity if np.linalg.norm(velocity) > 0.5 else None
-        plan_from = partial(self._plan_from, list(goals), skills, self._closed_links(closed))
-        try:
-            plan: Plan | NoWay = plan_from(self.position, moving)
-        except NoWay as error:  # it may fit where it comes to, or have to come back
-            plan = error
-        if moving is None:
-            if isinstance(plan, NoWay):
-                raise plan
-            return plan
-        limits = self.human.on_feet.limits
-        if isinstance(plan, Plan) and plan.length > _HERE:
-            if self.human.on_feet.walks or can_begin(plan.points, velocity, limits):
-                return plan
-        target = plan.pulled[1] if isinstance(plan, Plan) else goals[0]
-        for lead, runs_on in leads(self._level.graph, self.position, velocity, target, limits, self.radius):
-            try:
-                led = plan_from(lead[-1], lead[-1, :2] - lead[-2, :2] if runs_on else None, lead)
-            except NoWay:
-                continue
-            if not runs_on or can_begin(led.points, velocity, limits):
-                return led
-        if isinstance(plan, NoWay):
-            raise plan
-        return plan
-
-    def _plan_from(
-        self,
-        goals: Sequence[np.ndarray],
-        skills: Mapping[str, tuple[float, float]],
-        closed_links: np.ndarray,
-        start: np.ndarray,
-        direction: np.ndarray | None,
-        lead: np.ndarray | None = None,
-    ) -> Plan:
-        graph, radius = self._level.graph, PERSON_RULES["radius"]
-        return make_plan(
-            graph, Beginning(start, direction, lead), goals, radius, skills, closed_links=closed_links
-        )
-
-    def _closed_links(self, tags: Sequence[str]) -> np.ndarray:
-        """Indices of the links over obstacles of these ``tags``, and of those without room for a run-up."""
-        graph = self._level.graph
-        if not tags:
-            return cramped_links(graph, PERSON_RULES["radius"])
-        of_tags = np.flatnonzero(np.isin(graph.obstacles.tag[graph.links.obstacle], list(tags)))
-        return np.union1d(cramped_links(graph, PERSON_RULES["radius"]), of_tags)
+        return self._orders.planned(self._orders.told(goals, 1.0)).finish()
 
     def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
         if facing is not None:
             raise RuntimeInputError("a human cannot turn to a facing at its goal yet; leave it out")
         if self.human.status == "fallen":
             raise RuntimeInputError("it has fallen and cannot go anywhere")
-        return self._take(self.plan(goals), speed)
+        return self._begin(self._orders.told(goals, speed))
 
     def go_without(self, goals: np.ndarray, speed: float, closed: Sequence[str]) -> Plan:
-        return self._take(self._plan(goals, self.skills, closed), speed)
+        return self._begin(self._orders.told(goals, speed, closed=closed))
 
     def go_round(
         self, goals: np.ndarray, speed: float, closed: tuple[str, ...]
     ) -> tuple[Plan, tuple[str, ...]]:
         ahead = self.tag_ahead
-        choices = [({}, closed), (self.skills, closed)]
+        choices = [(False, closed), (True, closed)]
         if ahead:
-            choices.insert(1, (self.skills, (*closed, ahead)))
-        for number, (skills, tags) in enumerate(choices, start=1):
+            choices.insert(1, (True, (*closed, ahead)))
+        for number, (skilled, tags) in enumerate(choices, start=1):
             try:
-                return self._take(self._plan(goals, skills, tags), speed), tags
+                return self._begin(self._orders.told(goals, speed, skilled, tags)), tags
             except NoWay:
                 if number == len(choices):
                     raise
         raise AssertionError
 
-    def _take(self, plan: Plan, speed: float) -> Plan:
-        if plan.length > _HERE:
-            self.human.follow(plan.points, speed, plan.obstacles, self.hesitates)
+    def _begin(self, order: Order) -> Plan:
+        """Plan ``order`` from the next tick on; return the plan as it is until then."""
+        plan = self._orders.give(order)
+        self.plans.append(plan)
+        if plan.length <= ARRIVED and not order.moves:
+            self._orders.drop()
+            self.human.arrive()
+        return plan
+
+    def go_on_planning(self) -> None:
+        """Before each tick: plan what it has been told, and take the path if it is there."""
+        try:
+            planning = self._orders.go_on()
+        except NoWay as error:
+            self._orders.drop()
+            self.human.give_up(error.reason)
+            return
+        if planning is None:
+            return
+        if self.human.status == "fallen":
+            self._orders.drop()
+            return
+        plan = planning.finish()
+        self._former = (self.human.course(),)
+        if plan.length > ARRIVED:
+            hesitates = max(self.hesitates - planning.ticks * CONTROL_DT, 0.0)
+            self.human.follow(plan.points, planning.order.speed, plan.obstacles, hesitates)
         else:
             self.human.arrive()
-        self.plans.append(plan)
-        return plan
+        if self._orders.planning is None:
+            self.plans[-1] = plan
+
+    def plan_again(self) -> None:
+        """Plan what it has been told on the level as it is now."""
+        self._orders.change_level()
+
+    def sets_out(self) -> tuple[Course | None] | None:
+        former, self._former = self._former, None
+        return former
 
     @property
     def goals_left(self) -> int:
+        if self._orders.planning is not None:
+            return len(self._orders.goals)
         return max(sum(end > self.human.arc_length for end in self.plans[-1].ends), 1)
 
     def way_holds(self) -> bool:
+        if self._orders.planning is not None:
+            return True  # it was found on the level as it is
         return way_holds(self._level.graph, self.plans[-1], self.radius, self.human.arc_length)
 
     def stop(self) -> None:
+        self._orders.drop()
         self.human.stop()
 
     @property
@@ -548,7 +552,7 @@ class HumanDriver(Driver):
 
     def give_way(self, pace: float, shift: np.ndarray | None) -> None:
         self.human.give_way(pace, shift)
-        if shift is not None:
+        if shift is not None and self._orders.planning is None:
             self.plans[-1] = replace(self.plans[-1], points=self.human.path)
 
     @property
@@ -570,6 +574,7 @@ class HumanDriver(Driver):
         self.human.follower.make_room(far, self.human.on_feet.walk_limits, self.human.ticks)
 
     def give_up(self, reason: str | None = None) -> None:
+        self._orders.drop()
         if reason is None:
             self.human.give_up()
         else:
@@ -582,17 +587,20 @@ class HumanDriver(Driver):
             return
         points = course.points[:count]
         self.human.follow(points, float(course.speeds.max()))
-        self.plans[-1] = replace(self.plans[-1], points=points, obstacles=(), ends=(ahead,))
+        if self._orders.planning is None:
+            self.plans[-1] = replace(self.plans[-1], points=points, obstacles=(), ends=(ahead,))
 
-    def save(self) -> tuple[HumanState, tuple[Plan, ...], float, Fading | None]:
-        return self.human.save_state(), tuple(self.plans)[-1:], self.hesitates, self._fading
+    def save(self) -> tuple[HumanState, tuple[Plan, ...], float, Fading | None, OrdersState | None]:
+        return (
+            self.human.save_state(), tuple(self.plans)[-1:], self.hesitates, self._fading, self._orders.save()
+        )  # fmt: skip
 
     def fits(self, state: Any) -> bool:
         return isinstance(state, tuple) and any(isinstance(part, HumanState) for part in state)
 
     def restore(self, state: Any) -> None:
-        *parts, hesitates, fading = (
-            state if isinstance(state, tuple) and len(state) == 4 else (math.nan, None)
+        *parts, hesitates, fading, orders = (
+            state if isinstance(state, tuple) and len(state) == 5 else (math.nan, None, None)
         )
         if not (is_finite(hesitates) and hesitates >= 0.0):
             raise RuntimeInputError("expected a person's state, its plans, and how long it hesitates [s]")
@@ -603,9 +611,14 @@ class HumanDriver(Driver):
             check_number("how long a person's pose fades", fading.seconds, 1e-3, 10.0)
         check_person(body, self.human)
         self.human.restore_state(body)
+        self._orders.restore(orders)
+        self._former = None
         recall(self.plans, plans)
         self.hesitates, self._fading = hesitates, fading
         self.before, self.style = None, {}
 
     def state_hash(self) -> str:
-        return self.human.state_hash()
+        own, orders = self.human.state_hash(), self._orders.save()
+        if orders is None:
+            return own
+        return hashlib.sha256(own.encode() + orders.content()).hexdigest()

@@ -42,6 +42,9 @@ class Driver(ABC):
     tries_other_ways = False
     """Whether it can be told another way to the same goals when it gets nowhere: `can_turn`, `go_without`,
     `go_round`."""
+    plans_in_slices = False
+    """Whether it takes the way of `go_to` some ticks later, when `sets_out` says so: until then the plan is
+    not smooth, and it goes on as it did."""
 
     @property
     @abstractmethod
@@ -170,6 +173,11 @@ class Driver(ABC):
     @abstractmethod
     def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
         """Take the way through ``goals``. Raises `runtime.planning.planning.NoWay`."""
+
+    def sets_out(self) -> "tuple[Course | None] | None":
+        """Of one that `plans_in_slices`: the course that it was on, if it has taken another way since it was
+        asked last; else None."""
+        return None
 
     @property
     @abstractmethod

@@ -1,4 +1,8 @@
-"""Plans: from where an agent is, through its goals in order, to one path that a body can follow."""
+"""Plans: from where an agent is, through its goals in order, to one path that a body can follow.
+
+The routes are found at once (`find_way`), which is fast and tells whether there is a way; they are smoothed
+at once (`make_plan`), or in slices (`smoothing_way`).
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -7,15 +11,19 @@ from typing import NamedTuple
 import numpy as np
 
 import navmesh
-from locomotion import LocomotionError, ObstacleAhead, Smoothing, smooth_route
+from locomotion import LocomotionError, ObstacleAhead, Smoothing, SmoothPath
 from locomotion.paths.aligned_obstacles import lined_up
 from locomotion.paths.run_up_room import LEAST_RUN_UP, straight_before
-from locomotion.paths.smoothing import RUNNING
+from locomotion.paths.smoothing import RUNNING, pulled_path, smoothing_route
 from navmesh.routes.route import Route
 from navmesh.routes.route_validity import line_holds
 from surefoot.pausing import pause
+from surefoot.slices import Slices, finish
 
-__all__ = ["Beginning", "NoWay", "Plan", "make_plan", "way_holds", "why_not"]
+__all__ = [
+    "Beginning", "NoWay", "Plan", "Way", "find_way", "make_plan", "pulled_plan", "smoothing_way", "way_holds",
+    "why_not",
+]  # fmt: skip
 
 _SHORT = 0.05  # [m] by which a smoothed path may be nearer to a wall than its radius
 _SAME = 0.01  # [m] by which a link's ends and height may differ
@@ -69,6 +77,72 @@ class Beginning(NamedTuple):
     lead: np.ndarray | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class Way:
+    """How to go through all goals from where a body may ``begin``. ``routes``: to each goal from the one
+    before; None where it is there already."""
+
+    graph: navmesh.NodeGraph
+    begin: Beginning
+    routes: tuple[Route | None, ...]
+
+    @property
+    def found(self) -> tuple[Route, ...]:
+        """The routes that lead anywhere."""
+        return tuple(route for route in self.routes if route is not None)
+
+
+def find_way(
+    graph: navmesh.NodeGraph,
+    begin: Beginning,
+    goals: Sequence[np.ndarray],
+    radius: float,
+    skills: Mapping[str, tuple[float, float]],
+    closed_links: np.ndarray | Sequence[int] = (),
+) -> Way:
+    """The routes of `make_plan`, which raises `NoWay` where this does."""
+    start = begin.start if begin.lead is None else begin.lead[-1]
+    routes: list[Route | None] = []
+    for index, goal in enumerate(goals):
+        pause()
+        route = graph.find_path(start, goal, radius=radius, skills=skills, closed_links=closed_links)
+        if route.status != "complete":
+            raise NoWay(index, why_not(graph, route, start, goal, radius, skills, closed_links))
+        if len(route.waypoints) < 2:
+            routes.append(None)
+            continue
+        route = lined_up(route, skills, closed_links)
+        routes.append(route)
+        start = route.waypoints[-1]
+    if begin.lead is None and all(route is None for route in routes):
+        raise NoWay(len(goals) - 1, "it is where the body already is")
+    return Way(graph, begin, tuple(routes))
+
+
+def pulled_plan(way: Way) -> Plan:
+    """The plan along the shortest line, with sharp corners, until `smoothing_way` has the smooth one."""
+    return _joined(way, [pulled_path(route) for route in way.found])
+
+
+def smoothing_way(way: Way, smoothing: Smoothing = RUNNING) -> Slices[Plan]:
+    """The plan of `make_plan`, in slices, as `locomotion.paths.smoothing.smoothing_route` makes them. Raises
+    `NoWay`."""
+    direction, smoothed = way.begin.direction, []
+    for index, route in enumerate(way.routes):
+        pause()
+        if route is None:
+            continue
+        if index > 0 and direction is not None and _turns_back(direction, route.waypoints):
+            direction = None  # it stands at its goal and turns: a bend would lead past it
+        try:
+            path = yield from smoothing_route(route, smoothing, direction)
+        except LocomotionError as error:
+            raise NoWay(index, str(error)) from error
+        smoothed.append(path)
+        direction = _heading(path.points)
+    return _joined(way, smoothed)
+
+
 def make_plan(
     graph: navmesh.NodeGraph,
     begin: Beginning,
@@ -83,38 +157,26 @@ def make_plan(
 
     ``smoothing`` is what it wants of its path. Raises `NoWay`.
     """
-    start, direction, lead = begin
-    raw, pulled, points, obstacles, ends = [], [], [], [], []
-    begun = 0.0
-    if lead is not None:
-        points.append(lead)
-        begun, start = _length(lead), lead[-1]
-    for index, goal in enumerate(goals):
-        pause()
-        route = graph.find_path(start, goal, radius=radius, skills=skills, closed_links=closed_links)
-        if route.status != "complete":
-            raise NoWay(index, why_not(graph, route, start, goal, radius, skills, closed_links))
-        if len(route.waypoints) < 2:
-            ends.append(begun)
-            continue
-        route = lined_up(route, skills, closed_links)
-        if index > 0 and direction is not None and _turns_back(direction, route.waypoints):
-            direction = None  # it stands at its goal and turns: a bend would lead past it
-        try:
-            smooth = smooth_route(route, smoothing, direction)
-        except LocomotionError as error:
-            raise NoWay(index, str(error)) from error
-        raw.append(graph.positions[route.nodes])
-        pulled.append(route.waypoints)
-        points.append(smooth.points)
-        obstacles += [replace(each, arc_length=each.arc_length + begun) for each in smooth.obstacles]
-        begun += _length(smooth.points)
+    return finish(smoothing_way(find_way(graph, begin, goals, radius, skills, closed_links), smoothing))
+
+
+def _joined(way: Way, paths: Sequence[SmoothPath]) -> Plan:
+    """The plan along ``paths``, one for each route that was found."""
+    lead = way.begin.lead
+    points = [] if lead is None else [lead]
+    begun = 0.0 if lead is None else _length(lead)
+    obstacles: list[ObstacleAhead] = []
+    ends: list[float] = []
+    left = iter(paths)
+    for route in way.routes:
+        if route is not None:
+            path = next(left)
+            points.append(path.points)
+            obstacles += [replace(each, arc_length=each.arc_length + begun) for each in path.obstacles]
+            begun += _length(path.points)
         ends.append(begun)
-        start = smooth.points[-1]
-        direction = _heading(smooth.points)
-    if not points:
-        raise NoWay(len(goals) - 1, "it is where the body already is")
-    raw, pulled = raw or [points[0]], pulled or [points[0]]
+    raw = [way.graph.positions[route.nodes] for route in way.found] or [points[0]]
+    pulled = [route.waypoints for route in way.found] or [points[0]]
     return Plan(
         np.concatenate(raw), np.concatenate(pulled), np.concatenate(points), tuple(obstacles), tuple(ends)
     )

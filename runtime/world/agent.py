@@ -175,7 +175,7 @@ class Agent:
 
     @property
     def way(self) -> Plan | None:
-        """The path that it is on, None while it is not on its way."""
+        """The path that it is on, or that a person is still planning; None while it is not on its way."""
         return self._driver.plans[-1] if self.moving and self._driver.plans else None
 
     @property
@@ -372,8 +372,10 @@ class Agent:
 
     def go_to(self, point: ArrayLike, speed: float = 3.5, facing: float | None = None) -> str:
         """Set out for ``point`` (3,) [m], or through several (k, 3) in order, at up to ``speed`` [m/s]; a
-        quadruped and a walker can be told the ``facing`` [rad] in which to end. It plans at once; that takes
-        time in proportion to the way, for people some milliseconds for 30 m.
+        quadruped and a walker can be told the ``facing`` [rad] in which to end. The route is found at once. A
+        person's path is planned in the ticks that follow, in slices: until then it stands, or goes on as it
+        did, and `way` is the shortest line with sharp corners. For other bodies it is planned at once, in
+        time in proportion to the way.
 
         Returns the status: "walking", "running", or "blocked" when there is no way (an event says why; the
         agent then keeps doing what it did). Raises `RuntimeInputError` for a point that is not finite
@@ -386,7 +388,7 @@ class Agent:
         if len(goals) == 1 and not self.moving and self._has_come(goals[0]):
             self._goal, self._blocked = _triple(goals[0]), False
             return self.status
-        follower = self._driver.follower
+        follower = None if self._driver.plans_in_slices else self._driver.follower
         former = None if follower is None else follower.course()
         try:
             plan = self._driver.go_to(goals, speed, facing)
@@ -419,7 +421,7 @@ class Agent:
         here, goal = _triple(self.position), self._errand.goals[-1]
         self._goal = _triple(plan.points[-1])
         follower = self._driver.follower
-        if follower is not None:
+        if follower is not None and not self._driver.plans_in_slices:
             self._host.traffic.look_out(follower, former)
         now = self._host.clock.time
         self._headway = Headway(since=now, tried=now)
@@ -526,6 +528,9 @@ class Agent:
         """Report what has happened to the body; `World.step` calls this after every tick in which there is
         `news`."""
         self._driver.take_note()
+        follower, left = self._driver.follower, self._driver.sets_out()
+        if follower is not None and left is not None:
+            self._host.traffic.look_out(follower, *left)
         for event in self.news:
             if isinstance(event, bodily.WentBack):
                 self._balks(event)

@@ -77,6 +77,7 @@ def test_a_person_is_foretold_where_it_will_be(hall, walked, speed, goal, within
         person.driver.stop()
     else:
         person.go_to((*goal, 0.0), speed=speed)
+        world.step(0.1)  # its path is planned meanwhile
     told, real = told_and_real(world, 4.0)
     assert np.linalg.norm(told - real, axis=1).max() < within
 
@@ -139,6 +140,7 @@ def test_of_two_that_overlap_the_one_ahead_leaves(hall):
     world, (first, second) = spawned(hall, "human", "human")
     for agent in (first, second):
         agent.go_to((24.0, 5.0, 0.0), speed=1.4)
+    world.step(0.1)  # their paths are planned meanwhile
     seen = snapshot(world)
     assert seen.gets_away(0, 1) and not seen.gets_away(1, 0)
     apart = spawned(hall, "human")[0]

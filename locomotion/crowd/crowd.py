@@ -271,6 +271,12 @@ class Crowd:
         if self.rows[index, at.RADIUS] > self._widest:
             self._widest, self._gates = float(self.rows[index, at.RADIUS]), None
 
+    def expect(self, radius: float) -> None:
+        """Find the gates for bodies of up to ``radius`` [m] now: it takes time in proportion to the level."""
+        if radius > self._widest or self._gates is None:
+            self._widest = max(radius, self._widest)
+            self._find_gates()
+
     def _find_gates(self) -> Gates:
         gates = self._gates = find_gates(self.graph.surface, self._net, ABREAST * self._widest)
         for index in range(len(self)):

@@ -154,6 +154,13 @@ class Human(Person):
         state = super().save_state()
         return state if self._lookahead is None else state._replace(foresight=self._lookahead.memory(state))
 
+    def get_ready(self) -> None:
+        """Do what else would be done when it first has to look ahead, or comes to an obstacle."""
+        if self._lookahead is not None:
+            self._lookahead.get_ready()
+        for skill in self.clearing:
+            skill.approach(skill.heights[0])
+
     @property
     def waits(self) -> bool:
         """Whether a tick rehearses all that it has to decide, however long that takes. Else it does without

@@ -13,6 +13,8 @@
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -58,6 +60,7 @@ from locomotion.human.residual import Residual
 from locomotion.human.simulation import Simulation
 from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
 from locomotion.paths.follower import PathFollower
+from locomotion.paths.table import TrackingLimits
 
 __all__ = ["RUN_GAINS", "OnFeet"]
 
@@ -70,6 +73,52 @@ _CHANGED = 4.0  # steps after which a change of gait is complete
 _HELD_UP = 12.0  # steps after which a pushed person that has braked need not come to rest
 _NOTHING = np.zeros(0)
 _STILL = 0.03  # [m/s] of the centre of mass at rest
+
+
+class _Skills:
+    """Skills, equal only to the very same ones."""
+
+    def __init__(
+        self,
+        run: RunSkill,
+        walk: WalkSkill,
+        slow_down: SlowDownSkill,
+        speed_up: SpeedUpSkill,
+        brake: BrakeSkill,
+    ) -> None:
+        self.run, self.walk = run, walk
+        self.slow_down, self.speed_up, self.brake = slow_down, speed_up, brake
+
+    def _all(self) -> tuple[int, ...]:
+        return tuple(map(id, (self.run, self.walk, self.slow_down, self.speed_up, self.brake)))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Skills) and self._all() == other._all()
+
+    def __hash__(self) -> int:
+        return hash(self._all())
+
+
+class _Made(NamedTuple):
+    """What is worked out from skills: tables of the controllers, and limits of paths."""
+
+    quick_run: tuple[NDArray, ...]
+    slow_run: tuple[NDArray, ...]
+    braking_run: tuple[NDArray, ...]
+    first_steps: tuple[NDArray, ...]
+    braking_steps: tuple[NDArray, ...]
+    limits: TrackingLimits
+    walk_limits: TrackingLimits
+
+
+@lru_cache(maxsize=8)
+def _made_of(skills: _Skills) -> _Made:
+    """Made once for all people with the same skills, which never change."""
+    run, walk, slow_down, brake = skills.run, skills.walk, skills.slow_down, skills.brake
+    return _Made(
+        skills.speed_up.run_tables(run), slow_down.run_tables(run), brake.run_tables(run),
+        slow_down.walk_tables(walk), brake.walk_tables(walk), run_limits(run), walk_limits(walk),
+    )  # fmt: skip
 
 
 class OnFeet:
@@ -94,10 +143,10 @@ class OnFeet:
     ) -> None:
         self.run_skill, self.walk_skill = run, walk
         self.slow_down_skill, self.speed_up_skill, self.brake_skill = slow_down, speed_up, brake
-        self._quick_run, self._slow_run = speed_up.run_tables(run), slow_down.run_tables(run)
-        self._braking_run = brake.run_tables(run)
-        self._first_steps, self._braking_steps = slow_down.walk_tables(walk), brake.walk_tables(walk)
-        self.limits, self.walk_limits = run_limits(run), walk_limits(walk)
+        made = _made_of(_Skills(run, walk, slow_down, speed_up, brake))
+        self._quick_run, self._slow_run, self._braking_run = made.quick_run, made.slow_run, made.braking_run
+        self._first_steps, self._braking_steps = made.first_steps, made.braking_steps
+        self.limits, self.walk_limits = made.limits, made.walk_limits
         self.walk = new_walk()
         self.learned = None if policy is None else LearnedWalk(policy)
         self.residual = Residual(residual)

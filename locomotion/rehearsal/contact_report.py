@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from locomotion.body.hand_hold import holding
 from locomotion.body.person import CONTROL_DT, MASS, PersonIndex
@@ -53,6 +54,17 @@ class Watcher:
 
     def __init__(self, index: PersonIndex, model: mujoco.MjModel) -> None:
         self._index, self._model, self._moment = index, model, mujoco.MjData(model)
+        self._parts: dict[tuple[str, ...], NDArray[np.bool_]] = {}
+
+    def _is_one_of(self, parts: tuple[str, ...]) -> NDArray[np.bool_]:
+        """(nbody,) whether a body is one of these ``parts``, on the left or the right."""
+        if parts not in self._parts:
+            found = np.zeros(self._model.nbody, np.bool_)
+            found[[self._index.bodies[f"{side}_{part}"] for side in ("left", "right") for part in parts]] = (
+                True
+            )
+            self._parts[parts] = found
+        return self._parts[parts]
 
     def look(self, data: mujoco.MjData, obstacle: ObstacleAhead, report: ContactReport) -> None:
         """Record the contacts of ``data`` in ``passage``."""
@@ -72,11 +84,9 @@ class Watcher:
                 report.planted = -float(hand[:2] @ obstacle.normal[:2]) / max(obstacle.depth, 1e-9)
         kind = skill_kind(obstacle.affordance)
         if kind.may_touch is not None:
-            allowed = [
-                index.bodies[f"{side}_{part}"] for side in ("left", "right") for part in kind.may_touch
-            ]
+            allowed = self._is_one_of(tuple(kind.may_touch))
             deep = obstacle.depth + _BEHIND if kind.obstacle.has_depth else _STAIR
             behind = -(contact.pos[:, :2] - obstacle.position[:2]) @ obstacle.normal[:2]
             floor = obstacle.position[2] - obstacle.height + _SOLES
             with_it = (behind > -0.1) & (behind < deep) & (contact.pos[:, 2] > floor)
-            report.touched |= bool((with_it & ~np.isin(bodies, allowed)).any())
+            report.touched |= bool((with_it & ~allowed[bodies]).any())

@@ -55,6 +55,10 @@ class Lookahead:
         # spent in all
         self._saved: HumanState | None = None  # restored, and its ticks ahead are not yet made again
 
+    def get_ready(self) -> None:
+        """Make the double, if there is none."""
+        self._double_now()
+
     # --- after a saved state
     def memory(self, state: HumanState) -> tuple[int, int]:
         """What of it makes a difference to the person, which is in ``state``: ticks spent beyond it, and the

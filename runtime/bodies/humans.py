@@ -189,6 +189,7 @@ class People(Population):
             self._level.ground, run, clearing, walk, between, self._rehearsals, gets_up=True, policy=policy
         )
         human.waits = self._rehearsal_ticks is None
+        human.get_ready()
         self._unused = self._unused or human.save_state()
         return HumanDriver(self._level, human)
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from locomotion import Ground, LocomotionError
+from locomotion import PERSON_RULES, Ground, LocomotionError
 from locomotion.body.models import figure
 from locomotion.crowd.saved_state_check import check_walker
 from locomotion.human.composition import checked_bravery
@@ -55,6 +55,7 @@ class Recorded(Population):
         """Made with the first: worlds without any need no motions."""
         if self._people is None:
             self._people = RecordedPeople(self.level.graph, ground=self.level.ground)
+            self._people.crowd.expect(PERSON_RULES["radius"])  # lest a tick has to
         return self._people
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> "RecordedDriver":

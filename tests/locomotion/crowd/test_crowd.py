@@ -20,6 +20,19 @@ def test_two_that_meet_pass():
     assert one.time < 10.0 / 1.4 + 2.0
 
 
+def test_gates_that_were_found_before_are_those_that_a_tick_would_find():
+    crowds = Crowd(corner()), Crowd(corner())
+    crowds[0].expect(0.3)
+    for crowd in crowds:
+        found = crowd._gates
+        walker = crowd.add((0.6, 0.6, 0.0), 0.3)
+        walker.go_to([crowd.graph.positions[-1]])
+        crowd.tick()
+        assert (found is None) == (crowd is crowds[1])
+        assert found is None or crowd._gates is found  # not found again
+    assert all((one == other).all() for one, other in zip(*(crowd._gates for crowd in crowds), strict=True))
+
+
 def test_a_circle_changes_sides_without_touching():
     crowd = Crowd(hall())
     angles = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)

@@ -1,10 +1,22 @@
 """A person on its feet: how fast it lets itself become."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from locomotion.gaits.run import controller
+from locomotion.gaits.run.skill import load_run_skill
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
+
+
+def test_people_with_the_same_skills_share_what_is_worked_out_from_them() -> None:
+    skill = load_run_skill()
+    one, other, third = Human(skill=skill), Human(skill=skill), Human(skill=replace(skill))
+    assert one.on_feet.limits == other.on_feet.limits == third.on_feet.limits
+    quick = [each.on_feet._quick_run for each in (one, other, third)]
+    assert all((a == b).all() for a, b in zip(quick[0], quick[2], strict=True))
+    assert quick[0][1] is not quick[2][1]  # of another skill
 
 
 def test_a_person_told_to_run_fast_speeds_up_no_further_than_it_can_follow() -> None:

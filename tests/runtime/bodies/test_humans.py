@@ -5,7 +5,10 @@ import pytest
 
 import navmesh
 from benchmarks.giving_way import floor
+from locomotion.clips import clip
 from locomotion.rehearsal.lookahead import Lookahead
+from locomotion.skills.jump.skill import jump_clip
+from locomotion.skills.vault.skill import vault_clip
 from runtime import RuntimeInputError, World
 from runtime.bodies.humans import HumanDriver, People
 from runtime.evaluation.courses import make_course
@@ -143,3 +146,16 @@ def test_wrong_numbers_of_threads_and_ticks_are_refused(graph, wrong):
 def test_people_of_a_world_without_ticks_for_it_do_not_rehearse(graph):
     assert World(graph, rehearsal_ticks=0).spawn("human", (2.0, 3.0, 0.0)).human.decider.answer is None
     assert World(graph).spawn("human", (2.0, 3.0, 0.0)).human.decider.answer is not None
+
+
+def test_one_that_was_spawned_has_read_and_made_what_it_will_need(people, monkeypatch):
+    """Its double, and the clips of its skills: a tick that has to do that is a frame that stalls."""
+    jump_clip.cache_clear(), vault_clip.cache_clear()
+    human = people.spawn("human", np.array([2.0, 3.0, 0.0]), 0.0, 0.3).human
+    made = []
+    monkeypatch.setattr(clip, "read_yaml", lambda *_: made.append("a clip"))
+    monkeypatch.setattr(type(human), "_double", lambda self: made.append("a double"))
+    human._lookahead._double_now()
+    for skill in human.clearing:
+        skill.approach(skill.heights[1])
+    assert not made

@@ -4,9 +4,11 @@
 import dataclasses
 import hashlib
 import json
+import shutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -36,6 +38,7 @@ from locomotion.skills.vault.skill import load_vault_skill
 from locomotion.training.search.checkpoint import claim
 from locomotion.training.search.cma_es import CmaEs
 from locomotion.training.search.loop import Stage, read_search, write_search
+from navmesh.streaming.world_folder import INDEX, WorldIndex, read_chunk, read_index, write_world
 from runtime import World, WorldState
 from runtime.bodies.pose import Pose
 from runtime.missions.mission import load_mission
@@ -134,6 +137,42 @@ def _use_graph(graph: navmesh.NodeGraph) -> None:
     graph.nearest_edge(points), graph.nearest_node(points), graph.containing_node(points)
     graph.cast_ray(points, points[::-1], 0.2), graph.room_to_turn(points, 1.0)
     graph.random_points(rng, 10), graph.reachable_nodes((1.0, 1.0, 0.0))
+
+
+# --- open worlds
+def _make_world(path: Path) -> None:
+    with TemporaryDirectory() as place:
+        folder = navmesh.bake_open_world(level(), Path(place) / "world", (0.2, 0.4), 10.0)
+        shutil.copy(folder / INDEX, path)
+
+
+def _read_world(path: Path) -> WorldIndex:
+    with TemporaryDirectory() as folder:
+        shutil.copy(path, Path(folder) / INDEX)
+        return read_index(folder)
+
+
+def _use_world(index: WorldIndex) -> None:
+    skills = {"jump": (0.1, 0.7), "drop": (0.1, 2.0)}
+    rng = np.random.default_rng(1)
+    with TemporaryDirectory() as folder:
+        write_world(Path(folder), index, dict.fromkeys(index.names, level()))
+        world = navmesh.OpenWorld(folder)
+        for start, goal in rng.uniform(0, 8, (20, 2, 3)):
+            world.route(start, goal, world.radii[0], skills)
+
+
+def _make_chunk(path: Path) -> None:
+    with TemporaryDirectory() as place:
+        folder = navmesh.bake_open_world({"level": level()}, Path(place) / "world")
+        shutil.copy(folder / "chunk-00000.npz", path)
+
+
+def _read_chunk(path: Path) -> navmesh.Terrain:
+    with TemporaryDirectory() as place:
+        folder = navmesh.bake_open_world({"level": level()}, Path(place) / "world")
+        shutil.copy(path, folder / "chunk-00000.npz")
+        return read_chunk(folder, read_index(folder), 0)
 
 
 # --- states of worlds
@@ -283,6 +322,8 @@ def _use_tags(read: Any) -> None:
 
 KINDS: dict[str, Kind] = {
     "graph": Kind(".npz", _make_graph, navmesh.NodeGraph.load, _use_graph),
+    "world": Kind(".npz", _make_world, _read_world, _use_world),
+    "chunk": Kind(".npz", _make_chunk, _read_chunk),
     "state": Kind(".npz", _make_state, WorldState.read, _use_state),
     "trace": Kind(".npz", _make_trace, Trace.read, _use_trace),
     "run": Kind(".npz", _saved(load_run_skill), load_run_skill),

@@ -14,6 +14,9 @@ from navmesh.obstacles.tagging import load_tags
 from navmesh.obstacles.tags import save_tags, tags_path
 from navmesh.routes.route import Route, Routes
 from navmesh.rules import WalkRules
+from navmesh.streaming.baking import bake_open_world
+from navmesh.streaming.open_world import OpenWorld
+from navmesh.streaming.world_route import WorldRoute
 from surefoot import __version__
 from surefoot.compile_notice import announce
 
@@ -23,11 +26,14 @@ __all__ = [
     "ObstacleKind",
     "ObstacleRules",
     "Obstacles",
+    "OpenWorld",
     "Route",
     "Routes",
     "Terrain",
     "WalkRules",
+    "WorldRoute",
     "__version__",
+    "bake_open_world",
     "chunks_of",
     "crouch_kind",
     "join_chunks",

@@ -20,7 +20,7 @@ from navmesh.zones.leaps import settle_leaps
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
 
-__all__ = ["checked_radius", "doors_of", "parts_of", "portals_of", "regions_of"]
+__all__ = ["checked_radius", "checked_skills", "doors_of", "parts_of", "portals_of", "regions_of"]
 
 _NO_LINKS = np.empty(0, np.int64)
 
@@ -34,7 +34,7 @@ def checked_radius(radius: Any) -> float:
     return float(radius)
 
 
-def _checked_skills(skills: Mapping[str, tuple[float, float]] | None) -> tuple:
+def checked_skills(skills: Mapping[str, tuple[float, float]] | None) -> tuple:
     """The skills on offer as a sorted tuple (name, least height, greatest height)."""
     if skills is not None and not isinstance(skills, Mapping):
         raise NavmeshError(
@@ -139,7 +139,7 @@ def doors_of(
 ) -> Any:
     """The `Doors` for a body, made once for each radius, offer of skills and closed links (those with costs
     each time)."""
-    offered = _checked_skills(skills) if skills else ()
+    offered = checked_skills(skills) if skills else ()
     closed = _checked_links(graph, closed_links)
 
     def make() -> Any:

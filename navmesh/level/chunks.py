@@ -11,7 +11,7 @@ from navmesh.errors import NavmeshError
 from navmesh.level.solids import closed_parts
 from navmesh.level.terrain import Chunk, Terrain, coded_materials
 
-__all__ = ["change_chunks", "chunks_of", "join_chunks", "split_terrain"]
+__all__ = ["change_chunks", "chunks_by_square", "chunks_of", "join_chunks", "split_terrain"]
 
 
 def _check_name(name: object) -> None:
@@ -62,7 +62,11 @@ def split_terrain(terrain: Terrain, side: float) -> dict[str, Terrain]:
     if not (number and math.isfinite(side) and side > 0.0):
         raise NavmeshError(f"side = {side!r}: expected a length [m] above 0")
     middle = terrain.vertices[terrain.faces].mean(axis=1)
-    square = np.floor(middle[:, :2] / side).astype(np.int64)
+    return chunks_by_square(terrain, np.floor(middle[:, :2] / side).astype(np.int64))
+
+
+def chunks_by_square(terrain: Terrain, square: np.ndarray) -> dict[str, Terrain]:
+    """``terrain`` in chunks called "ix,iy", by the ``square`` (f, 2) int64 of each triangle."""
     squares, owner = np.unique(square, axis=0, return_inverse=True)
     found = {}
     for k, (ix, iy) in enumerate(squares.tolist()):

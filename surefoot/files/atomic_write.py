@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from surefoot.files.inputs import refuse_input
+from surefoot.files.processes import has_ended
 
 __all__ = ["whole_file"]
 
@@ -23,7 +24,7 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
     refuse_input(target)
     own = f".{target.name}."
     for left in target.parent.glob(f"{glob.escape(own)}*.part{glob.escape(target.suffix)}"):
-        if _has_ended(left.name.removeprefix(own).partition(".")[0]):
+        if has_ended(left.name.removeprefix(own).partition(".")[0]):
             left.unlink(missing_ok=True)
     handle, name = tempfile.mkstemp(
         dir=target.parent, prefix=f"{own}{os.getpid()}.", suffix=f".part{target.suffix}"
@@ -40,15 +41,3 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
         temporary.replace(target)
     finally:
         temporary.unlink(missing_ok=True)
-
-
-def _has_ended(process: str) -> bool:
-    if not process.isdecimal() or os.name != "posix":
-        return False
-    try:
-        os.kill(int(process), 0)
-    except (ProcessLookupError, OverflowError):
-        return True
-    except PermissionError:
-        pass
-    return False

@@ -5,3 +5,7 @@ from surefoot.errors import SurefootError
 
 class NavmeshError(SurefootError):
     """Wrong input: the message says what is wrong, where, and what would be right."""
+
+
+class NoFloorError(NavmeshError):
+    """A level without anything to walk on."""

@@ -81,7 +81,7 @@ def solve_with_bound(
     """
     if limit is not None:
         return finish(limited(problem, limit, tolerance, state))
-    trial = finish(_rounds(problem, limit, tolerance, state))
+    trial = finish(_rounds(problem, None, tolerance, state))
     if trial.complete:
         return _solution(trial)
     best = trial

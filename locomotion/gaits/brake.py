@@ -37,7 +37,7 @@ SLOWEST = 0.3
 _BORNE = 100.0  # [N] under a foot that bears the body
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BrakeSkill:
     """How a running person brakes.
 

@@ -51,7 +51,7 @@ _OMEGA = 3.3  # [1/s] of the capture point
 _FIRST_STEPS = 4  # of the walk in which its gains become those of a walk on level ground
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SlowDownSkill:
     """How a running person comes to walk.
 

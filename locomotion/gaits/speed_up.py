@@ -28,7 +28,7 @@ _SHORT = 0.25  # [m/s] below the speed asked for at which it goes over to the ru
 _STEP_TIMES = (0.22, 0.5)  # [s] shortest and longest step
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SpeedUpSkill:
     """How a person that has begun to run comes to its speed.
 

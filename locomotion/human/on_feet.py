@@ -75,30 +75,6 @@ _NOTHING = np.zeros(0)
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 
 
-class _Skills:
-    """Skills, equal only to the very same ones."""
-
-    def __init__(
-        self,
-        run: RunSkill,
-        walk: WalkSkill,
-        slow_down: SlowDownSkill,
-        speed_up: SpeedUpSkill,
-        brake: BrakeSkill,
-    ) -> None:
-        self.run, self.walk = run, walk
-        self.slow_down, self.speed_up, self.brake = slow_down, speed_up, brake
-
-    def _all(self) -> tuple[int, ...]:
-        return tuple(map(id, (self.run, self.walk, self.slow_down, self.speed_up, self.brake)))
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Skills) and self._all() == other._all()
-
-    def __hash__(self) -> int:
-        return hash(self._all())
-
-
 class _Made(NamedTuple):
     """What is worked out from skills: tables of the controllers, and limits of paths."""
 
@@ -112,11 +88,12 @@ class _Made(NamedTuple):
 
 
 @lru_cache(maxsize=8)
-def _made_of(skills: _Skills) -> _Made:
+def _made_of(
+    run: RunSkill, walk: WalkSkill, slow_down: SlowDownSkill, speed_up: SpeedUpSkill, brake: BrakeSkill
+) -> _Made:
     """Made once for all people with the same skills, which never change."""
-    run, walk, slow_down, brake = skills.run, skills.walk, skills.slow_down, skills.brake
     return _Made(
-        skills.speed_up.run_tables(run), slow_down.run_tables(run), brake.run_tables(run),
+        speed_up.run_tables(run), slow_down.run_tables(run), brake.run_tables(run),
         slow_down.walk_tables(walk), brake.walk_tables(walk), run_limits(run), walk_limits(walk),
     )  # fmt: skip
 
@@ -143,7 +120,7 @@ class OnFeet:
     ) -> None:
         self.run_skill, self.walk_skill = run, walk
         self.slow_down_skill, self.speed_up_skill, self.brake_skill = slow_down, speed_up, brake
-        made = _made_of(_Skills(run, walk, slow_down, speed_up, brake))
+        made = _made_of(run, walk, slow_down, speed_up, brake)
         self._quick_run, self._slow_run, self._braking_run = made.quick_run, made.slow_run, made.braking_run
         self._first_steps, self._braking_steps = made.first_steps, made.braking_steps
         self.limits, self.walk_limits = made.limits, made.walk_limits

@@ -135,7 +135,7 @@ def smoothing_route(
 
 
 def pulled_path(route: Route) -> SmoothPath:
-    """A route of status "complete" or "partial" as it is, without smoothing: its corners are sharp."""
+    """The path along a "complete" or "partial" route that is not smoothed: its corners are sharp."""
     pieces: list[NDArray[np.float64]] = []
     for i, walked in enumerate(route.walked()):
         pieces += [walked, *_over(route, i)]

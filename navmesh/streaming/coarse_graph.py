@@ -7,7 +7,7 @@ Between the terminals of a region there are edges, as long as the route between 
 places are joined here just if they are joined there.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -67,10 +67,6 @@ class CoarseGraph:
     leap_height: np.ndarray
     """(l,) float64 [m]: what a skill's range is compared with, see `Links.height`."""
 
-    def arrays(self) -> dict[str, np.ndarray]:
-        """The arrays by name, for an archive."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
-
     def terminals_of(self, region: int) -> np.ndarray:
         """The terminals of a region: (k,) int32."""
         return self.member[self.member_start[region] : self.member_start[region + 1]]
@@ -79,39 +75,49 @@ class CoarseGraph:
 def _regions(graph: "NodeGraph", radius: float, side: float) -> tuple[np.ndarray, np.ndarray]:
     """The region of each node, (m,) int32, -1 for those that the body cannot get into; and each region's
     part."""
-    start, doors = portals_of(graph, radius)[:2]
-    target = np.ascontiguousarray(doors["target"])
-    source = np.repeat(np.arange(len(graph)), np.diff(start))
+    source, target, _ = _doors(graph, radius)
     square = np.floor(graph.positions[:, :2] / side).astype(np.int64)
     inside = (square[source] == square[target]).all(axis=1)
     links = coo_array(
         (np.ones(inside.sum(), np.int8), (source[inside], target[inside])), shape=2 * [len(graph)]
     )
     label = connected_components(links, directed=False)[1]
-    fits = np.flatnonzero(
-        (graph.radii >= radius) | (np.diff(start) > 0)
-    )  # small ones that large ones overlap
+    opens = np.bincount(source, minlength=len(graph)) > 0  # also small ones that large ones overlap
+    fits = np.flatnonzero((graph.radii >= radius) | opens)
     region = np.full(len(graph), -1, np.int32)
-    _, first, region[fits] = _numbered(label[fits])
-    _, _, part = _numbered(parts_of(graph, radius)[0][fits[first]])
-    return region, part
+    first, region[fits] = _numbered(label[fits])
+    return region, _numbered(parts_of(graph, radius)[0][fits[first]])[1]
 
 
-def _numbered(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """``labels`` (k,) by the order in which they appear: (labels, where each is first, number of each)."""
-    found, first, number = np.unique(labels, return_index=True, return_inverse=True)
+def _doors(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The p doors open to a body of ``radius`` [m]: the node on this side, the node beyond, and the rows of
+    `navmesh.graph.open_to_body.portals_of`."""
+    start, doors = portals_of(graph, radius)[:2]
+    source = np.repeat(np.arange(len(graph)), np.diff(start))
+    return source, np.ascontiguousarray(doors["target"]), doors
+
+
+def _numbered(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """``labels`` (k,) by the order in which they appear: (where each is first, number of each)."""
+    _, first, number = np.unique(labels, return_index=True, return_inverse=True)
     order = np.argsort(first)
     rank = np.empty(len(order), np.int32)
     rank[order] = np.arange(len(order))
-    return found[order], first[order], rank[number.reshape(-1)]
+    return first[order], rank[number.reshape(-1)]
+
+
+def _first_of_alike(rows: np.ndarray, cost: np.ndarray) -> np.ndarray:
+    """Of equal ``rows`` (k, c) the one of least ``cost`` (k,), and of these the first: their indices, by
+    rising rows."""
+    order = np.lexsort((cost, *rows.T[::-1]))
+    fresh = np.append(True, (np.diff(rows[order], axis=0) != 0).any(axis=1))[: len(order)]
+    return order[fresh]
 
 
 def _gates(graph: "NodeGraph", radius: float, region: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Places (g, 3) [m] on the doors between regions, at most about `GATE` apart, and their regions (g,
     2)."""
-    start, doors = portals_of(graph, radius)[:2]
-    target = np.ascontiguousarray(doors["target"])
-    source = np.repeat(np.arange(len(graph)), np.diff(start))
+    source, target, doors = _doors(graph, radius)
     across = np.flatnonzero((region[source] < region[target]) & (region[source] >= 0))
     portal = np.ascontiguousarray(doors["portal"][across])
     left, right = portal[:, :3], portal[:, 3:]
@@ -124,9 +130,7 @@ def _gates(graph: "NodeGraph", radius: float, region: np.ndarray) -> tuple[np.nd
     # of the places between two regions in a square of GATE, that on the widest door
     spot = np.column_stack([pair, np.floor(place[:, :2] / GATE).astype(np.int64)])
     width = np.linalg.norm(right - left, axis=1)[door]
-    order = np.lexsort((np.arange(len(door)), -width, *spot.T[::-1]))
-    fresh = np.append(True, (np.diff(spot[order], axis=0) != 0).any(axis=1))[: len(order)]
-    kept = order[fresh]
+    kept = _first_of_alike(spot, -width)
     return place[kept], pair[kept]
 
 
@@ -141,9 +145,7 @@ def _leaps(graph: "NodeGraph", radius: float, region: np.ndarray) -> tuple[np.nd
     spot = np.floor(links.edge[index, :2] / GATE).astype(np.int64)
     tall = np.unique(links.height[index], return_inverse=True)[1].reshape(-1)
     alike = np.column_stack([ends[index], kind, tall, spot])
-    order = np.lexsort((index, links.cost[index], *alike.T[::-1]))
-    fresh = np.append(True, (np.diff(alike[order], axis=0) != 0).any(axis=1))[: len(order)]
-    index = np.sort(index[order[fresh]])
+    index = np.sort(index[_first_of_alike(alike, links.cost[index])])
     return index, ends[index]
 
 
@@ -151,9 +153,7 @@ def _anchors(graph: "NodeGraph", region: np.ndarray) -> tuple[np.ndarray, np.nda
     """Places (a, 3) [m] in the regions, and which each is in (a,)."""
     nodes = np.flatnonzero(region >= 0)
     spot = np.column_stack([region[nodes], np.floor(graph.positions[nodes, :2] / ANCHOR).astype(np.int64)])
-    order = np.lexsort((nodes, -graph.radii[nodes], *spot.T[::-1]))
-    fresh = np.append(True, (np.diff(spot[order], axis=0) != 0).any(axis=1))[: len(order)]
-    kept = nodes[order[fresh]]
+    kept = nodes[_first_of_alike(spot, -graph.radii[nodes])]
     return graph.positions[kept], region[kept].astype(np.int64)
 
 

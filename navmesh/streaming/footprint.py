@@ -4,7 +4,7 @@ A run is a row of cells in +y, each linked to the next, that belong to one regio
 straight line in height. So a wide floor takes a few bytes for each row of cells, not for each cell.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from math import sqrt
 from typing import TYPE_CHECKING, Any
 
@@ -40,10 +40,6 @@ class Footprint:
     """(k,) float32: dz/dy along the run."""
     region: np.ndarray
     """(k,) int32: the region that a body in these cells is in."""
-
-    def arrays(self) -> dict[str, np.ndarray]:
-        """The arrays by name, for an archive."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     def nearest(
         self, cell: float, point: Any, limits: tuple[float, float, float], allowed: np.ndarray

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from navmesh.errors import NavmeshError
+from navmesh.errors import NavmeshError, NoFloorError
 from navmesh.graph.node_graph import NodeGraph
 from navmesh.graph.open_to_body import checked_radius, checked_skills
 from navmesh.level.chunks import join_chunks
@@ -274,7 +274,7 @@ def _or_none(make: Any) -> NodeGraph | None:
     """The graph, or None where there is nothing to walk on."""
     try:
         return make()
-    except NavmeshError:
+    except NoFloorError:
         return None
 
 

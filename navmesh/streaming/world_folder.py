@@ -5,7 +5,7 @@ Compiled code follows the numbers in these arrays without looking, so all of the
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any
@@ -183,6 +183,10 @@ def _chunk_path(folder: Path, number: int) -> Path:
     return folder / f"chunk-{number:05d}.npz"
 
 
+def _arrays_of(part: CoarseGraph | Footprint, prefix: str) -> dict[str, np.ndarray]:
+    return {prefix + field.name: getattr(part, field.name) for field in fields(part)}
+
+
 def write_world(folder: Path, index: WorldIndex, chunks: Mapping[str, Terrain]) -> None:
     """Write ``index`` and its ``chunks`` into ``folder``, which is there."""
     for number, name in enumerate(index.names):
@@ -198,8 +202,7 @@ def write_world(folder: Path, index: WorldIndex, chunks: Mapping[str, Terrain]) 
         )
     arrays = {"bounds": index.bounds, "extent": index.extent, "corner": index.corner}
     for k, body in enumerate(index.bodies):
-        arrays |= {f"coarse{k}_{name}": array for name, array in body.coarse.arrays().items()}
-        arrays |= {f"footprint{k}_{name}": array for name, array in body.footprint.arrays().items()}
+        arrays |= _arrays_of(body.coarse, f"coarse{k}_") | _arrays_of(body.footprint, f"footprint{k}_")
     rules = index.obstacle_rules
     header = {
         "level": index.level,

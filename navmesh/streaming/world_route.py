@@ -1,4 +1,4 @@
-"""Routes through an open world: fine as far as it is loaded, coarse beyond."""
+"""Routes through an open world: fine over what is loaded, coarse beyond."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from navmesh.errors import NavmeshError
+from navmesh.errors import NavmeshError, NoFloorError
 from navmesh.level import raster
 from navmesh.level.terrain import Terrain
 from navmesh.rules import WalkRules
@@ -138,7 +138,7 @@ def find_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | 
 
 def found_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window | None = None) -> FoundCells:
     """The cells of ``terrain``, or those of a ``window`` of it, in its `patch_around`: right but for the
-    window's outermost columns, as many as `reach_of` and three more. Raises `NavmeshError` when there is
+    window's outermost columns, as many as `reach_of` and three more. Raises `NoFloorError` when there is
     nothing to walk on at all."""
     faces, solid, whole = terrain.faces, terrain.solid, window is None
     if window is None:
@@ -182,9 +182,9 @@ def found_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window |
 
 
 def check_floor(cells: Cells | FoundCells, terrain: Terrain, rules: WalkRules) -> None:
-    """Raise `NavmeshError` when there are no ``cells``."""
+    """Raise `NoFloorError` when there are no ``cells``."""
     if not len(cells.cell_column):
-        raise NavmeshError(
+        raise NoFloorError(
             f"{terrain.name}: nothing to walk on: no face is within {math.degrees(rules.max_slope):g}° "
             f"of level, faces up, has {rules.headroom:g} m free above it and is not inside of solids (closed "
             "parts); check the up axis, the unit scale and the order of the corners of the faces "

@@ -15,9 +15,9 @@ from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["SIDE", "FloorStore", "gradient_of", "height_of", "join_floors", "pack_floors", "renew_floors"]
 
-SIDE = 32
+_SHIFT = 5
+SIDE = 1 << _SHIFT
 """Columns in a block, in the order of their numbers."""
-_SHIFT = 5  # 1 << 5 columns
 _STALE = 8
 """All is packed anew when what updates have added is more than one part in so many of the cells."""
 _FREE = 65536  # cells that updates may add before that is looked at
@@ -83,13 +83,13 @@ class FloorStore:
 @kernel(error_model="numpy", inline="always")
 def height_of(net, k):
     """Height [m] of the floor at the centre of cell ``k``."""
-    return net.floor_height[k + net.floor_shift[net.cell_column[k] >> 5]]
+    return net.floor_height[k + net.floor_shift[net.cell_column[k] >> _SHIFT]]
 
 
 @kernel(error_model="numpy", inline="always")
 def gradient_of(net, k):
     """Slope of the floor at the centre of cell ``k``, dz/dx and dz/dy."""
-    slope = net.floor_slope[k + net.floor_shift[net.cell_column[k] >> 5]]
+    slope = net.floor_slope[k + net.floor_shift[net.cell_column[k] >> _SHIFT]]
     return net.slopes[slope, 0], net.slopes[slope, 1]
 
 

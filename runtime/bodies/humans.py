@@ -482,7 +482,7 @@ class HumanDriver(Driver):
         raise AssertionError
 
     def _begin(self, order: Order) -> Plan:
-        """Plan ``order`` from the next tick on; return the plan as it is until then."""
+        """Begin to plan ``order`` in the next tick; return the plan without smoothing."""
         plan = self._orders.give(order)
         self.plans.append(plan)
         if plan.length <= ARRIVED and not order.moves:
@@ -514,7 +514,7 @@ class HumanDriver(Driver):
             self.plans[-1] = plan
 
     def plan_again(self) -> None:
-        """Plan what it has been told on the level as it is now."""
+        """Plan its order again: the level has changed."""
         self._orders.change_level()
 
     def sets_out(self) -> tuple[Course | None] | None:
@@ -529,7 +529,7 @@ class HumanDriver(Driver):
 
     def way_holds(self) -> bool:
         if self._orders.planning is not None:
-            return True  # it was found on the level as it is
+            return True  # it was found on the present level
         return way_holds(self._level.graph, self.plans[-1], self.radius, self.human.arc_length)
 
     def stop(self) -> None:

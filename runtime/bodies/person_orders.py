@@ -1,12 +1,13 @@
 """What a person has been told, and its path for that, which is planned in slices.
 
 The routes are found at once, so it is known at once whether there is a way. They are smoothed in the ticks
-that follow. A person at rest stands meanwhile, any other goes on as it did: it has gone less than half a
-metre when its path is there.
+that follow. Meanwhile a person at rest stands, and a moving one keeps to its former way, for less than half a
+metre.
 """
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import NamedTuple
 
@@ -232,7 +233,7 @@ class PersonOrders:
 
     def go_on(self) -> Planning | None:
         """Plan for a tick. Returns the planning if it is done: its plan is to be taken now. Raises `NoWay`
-        for one that has come to where no way leads on."""
+        if the person has moved to a place from which there is none."""
         planning = self.planning
         if planning is None:
             return None
@@ -256,15 +257,13 @@ class PersonOrders:
         self.planning, self._later, self._again = None, None, False
 
     def change_level(self) -> None:
-        """Plan again on the level as it is now, as it was told; forget what is impossible there."""
+        """The level has changed: plan the order again, or forget it if there is no way any more."""
         if self.planning is None:
             return
         last = self._later or self.planning.order
         self.drop()
-        try:
+        with suppress(NoWay):
             self.planning = self.planned(last)
-        except NoWay:
-            return
 
     def _strayed(self, order: Order) -> bool:
         """Whether it is too far from where it was told, or has taken off since."""

@@ -43,8 +43,8 @@ class Driver(ABC):
     """Whether it can be told another way to the same goals when it gets nowhere: `can_turn`, `go_without`,
     `go_round`."""
     plans_in_slices = False
-    """Whether it takes the way of `go_to` some ticks later, when `sets_out` says so: until then the plan is
-    not smooth, and it goes on as it did."""
+    """Whether it takes the way of `go_to` some ticks later, when `sets_out` says so. Until then its plan is
+    not smooth, and it keeps to its former way."""
 
     @property
     @abstractmethod

@@ -47,7 +47,7 @@ def run_clip() -> Clip:
     return load_clip(RUN_CLIP)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RunSkill:
     """A family of running controllers over speed.
 

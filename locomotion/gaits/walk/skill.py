@@ -57,7 +57,7 @@ _HIPS = tuple(JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "le
 _ARMS = (("shoulder_abduction", 0.12), ("elbow_flexion", 0.35))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class WalkSkill:
     """How the person walks.
 

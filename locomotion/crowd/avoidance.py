@@ -8,6 +8,7 @@ surface's end, to the body and to the cells around it, each forbid coming closer
 from math import sqrt
 
 from navmesh.surface.clearance_field import centre_of, gap_at
+from navmesh.surface.recall import nearest_of
 from surefoot.kernels import kernel
 
 __all__ = ["MOST_WALLS", "body_plane", "wall_planes"]
@@ -100,8 +101,11 @@ def wall_planes(net, planes, k, x, y, radius, speed):
             c = other
         if c == k:
             continue
+        if net.clearance[c] > reach + (away + 2) * net.cell:
+            continue
         cx, cy = centre_of(net, c)
-        px, py = cx + net.nearest[c, 0], cy + net.nearest[c, 1]
+        off_x, off_y = nearest_of(net, c)
+        px, py = cx + off_x, cy + off_y
         if (px - x) * (px - x) + (py - y) * (py - y) < reach * reach:
             count = _add_wall(planes, count, x, y, px, py, radius)
     return count

@@ -70,8 +70,8 @@ def _paint(net, throats, part, of_cell, by, pairs):
     return count
 
 
-def _throats(surface: Surface, limit: float) -> NDArray[np.int64]:
-    toward = surface.nearest / np.maximum(surface.clearance, 1e-9)[:, None]
+def _throats(surface: Surface, nearest: NDArray[np.float64], limit: float) -> NDArray[np.int64]:
+    toward = nearest / np.maximum(surface.clearance, 1e-9)[:, None]
     narrow = surface.clearance < limit
     found = np.zeros(len(surface), dtype=bool)
     for way in range(2):
@@ -109,7 +109,8 @@ def _half_widths(surface: Surface, throats: NDArray[np.int64]) -> NDArray[np.flo
 
 def find_gates(surface: Surface, net: object, limit: float) -> Gates:
     """The gates narrower than ``limit`` [m] from the middle to the wall."""
-    throats = _throats(surface, limit)
+    nearest = surface.nearest
+    throats = _throats(surface, nearest, limit)
     of_cell = np.full(len(surface), -1, dtype=np.int32)
     by = np.full(len(surface), -1, dtype=np.int64)
     along = np.zeros(len(surface))
@@ -126,7 +127,7 @@ def find_gates(surface: Surface, net: object, limit: float) -> Gates:
     of_cell[covered] = whole[of_cell[covered]]
     way = np.zeros(len(throats))
     width, half = np.empty(count), _half_widths(surface, throats)
-    across = surface.nearest[throats] / np.maximum(surface.clearance[throats], 1e-9)[:, None]
+    across = nearest[throats] / np.maximum(surface.clearance[throats], 1e-9)[:, None]
     axis, passage = np.zeros((len(surface), 2)), np.column_stack([-across[:, 1], across[:, 0]])
     for number in range(count):
         members = np.flatnonzero(gate == number)

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from navmesh.graph.edges import borders, measure_edges, rows_of_edges
+from navmesh.graph.edges import border_pairs, measure_edges, rows_of_edges
 from navmesh.graph.node_changes import Nodes, RenewedNodes, boxes_of, hull
-from navmesh.surface.renewal import field_in, links_in, moved_cells
+from navmesh.surface.renewal import moved_cells
 from navmesh.surface.surface import Surface
+from navmesh.surface.windows import links_in
 from surefoot.kernels import allocating_kernel
 
 __all__ = ["Edges", "renew_edges"]
@@ -29,20 +30,30 @@ def renew_edges(old: Edges, nodes: Nodes, before: Surface, new: RenewedNodes, su
         boxes_of(new.nodes.place[ends], surface.resolution) for ends in (wanted >> 32, wanted & 0xFFFFFFFF)
     )
     shared = np.column_stack([np.maximum(one[:, :2], other[:, :2]), np.minimum(one[:, 2:], other[:, 2:])])
-    field, where = field_in(surface, tuple(hull(beside, shared, _SEEN, surface).tolist()))
-    ends, width, gate, pair = measure_edges(new.nodes.label[where], field, new.nodes.place, wanted)
+    seen = hull(beside, shared, _SEEN, surface)
+    key, pair, clearance = _pairs_in(seen, surface, new.nodes.label)
+    these = np.isin(key, wanted)
+    measured = measure_edges(key[these], pair[these], clearance[these], surface.field, new.nodes.place)
     start, target, widths, gates, cells = old
     moved = moved_cells(cells.reshape(-1), before, surface, new.window).reshape(-1, 2)
     both_ways = np.sort(np.concatenate([gone, (gone << 32) | (gone >> 32)]))
     return _merge(
         start, target, widths, gates, moved, new.number, both_ways,
-        *rows_of_edges(len(new.nodes.cell), ends, width, gate, where[pair]),
+        *rows_of_edges(len(new.nodes.cell), *measured),
     )  # fmt: skip
 
 
 def _borders_in(window: np.ndarray, surface: Surface, label: np.ndarray) -> np.ndarray:
-    link, where = links_in(surface, tuple(window.tolist()))
-    return borders(label[where], link)
+    return _pairs_in(window, surface, label)[0]
+
+
+def _pairs_in(
+    window: np.ndarray, surface: Surface, label: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The `border_pairs` in the columns of ``window``, by the cells' numbers in the whole."""
+    link, where = links_in(surface.column_start, surface.link, window, surface.shape[1])
+    key, pair, clearance = border_pairs(label[where], link, surface.clearance[where])
+    return key, where[pair], clearance
 
 
 @allocating_kernel

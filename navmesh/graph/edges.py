@@ -1,15 +1,16 @@
 """Edges between nodes whose cells touch, with the widest body that passes and where it passes."""
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from navmesh.surface.clearance_field import centre_of
-from navmesh.surface.ridges import Field, half_width, widest_through
+from navmesh.surface.ridges import half_width, widest_through
 from navmesh.threads import in_threads, shares
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["borders", "join_nodes", "measure_edges", "rows_of_edges", "widest_pair"]
+__all__ = ["border_pairs", "join_nodes", "measure_edges", "rows_of_edges", "widest_pair"]
 
 
 _WIDE = 1.5
@@ -19,8 +20,9 @@ _FINE = 0.002
 
 
 @allocating_kernel
-def _border_pairs(label, link, clearance):
-    """Cell pairs on borders between labels, one for each pair of nodes: the one with most clearance."""
+def border_pairs(label, link, clearance):
+    """The pairs of linked cells with different labels: for each a key, the lesser label in the upper half
+    (k,) int64, the cells (k, 2) int32, that of the lesser label first, and the lesser clearance (k,)."""
     borders = 0
     for c in range(label.shape[0]):
         for d in range(2):
@@ -138,19 +140,10 @@ def rows_of_edges(nodes, ends, widest, gate, border):
     return start, target, width, place, cells
 
 
-def borders(label: np.ndarray, link: np.ndarray) -> np.ndarray:
-    """(k,) int64: the pairs of labels that touch, the lesser in the upper half; more than once."""
-    return _border_pairs(label, link, np.zeros(len(label)))[0]
-
-
 def measure_edges(
-    label: np.ndarray, field: Field, place: np.ndarray, wanted: np.ndarray | None = None, threads: int = 1
+    key: np.ndarray, pair: np.ndarray, width: np.ndarray, field: Any, place: np.ndarray, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """`_measure` for all pairs of labels that touch, or for those whose `borders` are ``wanted``."""
-    key, pair, width = _border_pairs(label, field.link, field.clearance)
-    if wanted is not None:
-        these = np.isin(key, wanted)
-        key, pair, width = key[these], pair[these], width[these]
+    """`_measure` for all edges of some `border_pairs`."""
     order = _by_ends(key, len(place))
     sorted_key = key[order]
     bounds = np.searchsorted(sorted_key, sorted_key[shares(len(key), threads)[:-1]]) if len(key) else [0]
@@ -161,7 +154,7 @@ def measure_edges(
 
 
 def join_nodes(
-    label: np.ndarray, field: Field, place: np.ndarray, threads: int = 1
+    label: np.ndarray, field: Any, place: np.ndarray, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Edges in CSR form, both ways: start (m + 1,), target (e,), width (e,), gate (e, 2), cells (e, 2).
 
@@ -169,4 +162,5 @@ def join_nodes(
     that passes is max((Rᵢ + Rⱼ - d)/2, the clearance of the best pair of linked cells on the labels'
     border); where the sides of a passage face each other, the clearance in its middle instead of the cells'.
     """
-    return rows_of_edges(len(place), *measure_edges(label, field, place, threads=threads))
+    key, pair, width = border_pairs(label, field.link, field.clearance)
+    return rows_of_edges(len(place), *measure_edges(key, pair, width, field, place, threads))

@@ -23,7 +23,6 @@ from navmesh.obstacles.rules import ObstacleRules
 from navmesh.rules import WalkRules
 from navmesh.surface.build import Grid, Window, find_cells, lay_grid, patch_around, reach_of, surface_of
 from navmesh.surface.renewal import renew_surface
-from navmesh.surface.ridges import field_of
 from navmesh.surface.strips import all_cells
 from navmesh.surface.surface import Surface
 
@@ -44,8 +43,6 @@ class Built:
 
     grid: Grid
     surface: Surface
-    choice: np.ndarray
-    """(n,) uint8, for each cell of the surface; see `navmesh.surface.clearance`."""
     nodes: Nodes
     edges: Edges
 
@@ -81,17 +78,14 @@ def grid_for(terrain: Terrain, rules: WalkRules, extent: np.ndarray | None, grow
 
 def build_whole(terrain: Terrain, rules: WalkRules, grid: Grid, threads: int = 1) -> Built:
     """Surface, discs and edges of ``terrain``. Raises `NavmeshError` where there are none."""
-    surface, choice = surface_of(all_cells(terrain, rules, grid, threads), grid, threads)
-    return _checked(_with_discs(rules, grid, surface, choice, threads), terrain, rules)
+    surface = surface_of(all_cells(terrain, rules, grid, threads), grid, threads)
+    return _checked(_with_discs(rules, grid, surface, threads), terrain, rules)
 
 
-def _with_discs(
-    rules: WalkRules, grid: Grid, surface: Surface, choice: np.ndarray, threads: int = 1
-) -> Built:
-    field = field_of(surface)
-    cell, place, maker, label = all_nodes(surface, field, rules.min_radius)
+def _with_discs(rules: WalkRules, grid: Grid, surface: Surface, threads: int = 1) -> Built:
+    cell, place, maker, label = all_nodes(surface, rules.min_radius)
     nodes = Nodes(cell, place, maker, label, surface.lifted(place[:, :2], cell))
-    return Built(grid, surface, choice, nodes, join_nodes(nodes.label, field, nodes.place, threads))
+    return Built(grid, surface, nodes, join_nodes(nodes.label, surface.field, nodes.place, threads))
 
 
 def _checked(built: Built, terrain: Terrain, rules: WalkRules) -> Built:
@@ -120,13 +114,13 @@ def renewed(
         wide = (window[0] - spare, window[1] - spare, window[2] + spare, window[3] + spare)
         wide = _clipped(wide, *grid.shape)
         fresh, around = find_cells(terrain, rules, grid, wide), patch_around(grid, wide)
-        surface, choice, reach = renew_surface(built.surface, built.choice, fresh, window, around, grid, MOST)
+        surface, reach = renew_surface(built.surface, fresh, window, around, grid, MOST)
         nodes = reach and renew_nodes(built.nodes, built.surface, surface, reach, rules.min_radius, MOST)
         if nodes is None:
-            built, changes = _with_discs(rules, grid, surface, choice), None
+            built, changes = _with_discs(rules, grid, surface), None
             continue
         edges = renew_edges(built.edges, built.nodes, built.surface, nodes, surface)
-        built = Built(grid, surface, choice, nodes.nodes, edges)
+        built = Built(grid, surface, nodes.nodes, edges)
         changes = changes and changes.and_then(Changes(nodes.number, (nodes.window,)))
     return _checked(built, terrain, rules), changes
 

@@ -8,7 +8,7 @@ node, are one line of the cache each. All coordinates are relative to the surfac
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba import float64, int32, int64
+from numba import float64, int32, int64, uint8
 
 from navmesh.routes.graph_search import LABELS
 from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
@@ -39,6 +39,7 @@ NET = BundleType(
     slopes=float64[:, ::1],
     link=int32[:, ::1],
     clearance=float64[::1],
+    choice=uint8[::1],
     nearest=float64[:, ::1],
     source=int32[::1],
     blocker_start=int32[::1],
@@ -52,10 +53,11 @@ NET = BundleType(
 """The surface and the graph.
 
 cell: side of a grid square [m]; nx, ny: columns. The arrays of `Surface` themselves: column_start
-(nx*ny + 1,) and, for each cell, cell_column, link (4), clearance, nearest (2), source; blocker_start
-(n + 1,), blocker (k, 4). Height and slope of a cell are found by floor_shift, floor_height, floor_slope and
-slopes, see `navmesh.surface.floor_store.height_of`. Of `NodeGraph`: label of each cell; position (3),
-node_radius and node_cell of each node; edge_start (m + 1,), edge_target (e,).
+(nx*ny + 1,) and, for each cell, cell_column, link (4), clearance, choice, source; blocker_start (n + 1,),
+blocker (k, 4). nearest (n, 2) is there if zones change it, else (0, 2), see
+`navmesh.surface.recall.nearest_of`. Height and slope of a cell are found by floor_shift, floor_height,
+floor_slope and slopes, see `navmesh.surface.floor_store.height_of`. Of `NodeGraph`: label of each cell;
+position (3), node_radius and node_cell of each node; edge_start (m + 1,), edge_target (e,).
 """
 
 _NO_SLOTS = np.empty(0, np.int32)
@@ -184,7 +186,8 @@ def _net(graph: "NodeGraph") -> Any:
         slopes=surface.floor.slopes,
         link=surface.link,
         clearance=surface.clearance,
-        nearest=surface.nearest,
+        choice=surface.choice,
+        nearest=surface.kept_nearest,
         source=surface.source,
         blocker_start=surface.blocker_start,
         blocker=surface.blocker,

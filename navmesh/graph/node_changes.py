@@ -13,9 +13,10 @@ import numpy as np
 from navmesh.graph.nodes import grain_of, order_by_clearance, select_nodes
 from navmesh.level.raster import Patch
 from navmesh.surface.build import Window
-from navmesh.surface.renewal import field_in, inside_of, moved_cells
-from navmesh.surface.splicing import columns_in, runs_of
+from navmesh.surface.renewal import cells_in, inside_of, moved_cells
+from navmesh.surface.splicing import runs_of
 from navmesh.surface.surface import Surface
+from navmesh.surface.windows import columns_in
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["Nodes", "RenewedNodes", "boxes_of", "hull", "renew_nodes"]
@@ -96,7 +97,7 @@ def _choose_in(area: np.ndarray, old: Nodes, before: Surface, surface: Surface, 
     near = _near(old.place, side, area)
     in_area = inside_of(before.cell_column[old.maker[near]], window, surface.shape[1])
     there, given = near[in_area], near[~in_area]
-    field, where = field_in(
+    field, where = cells_in(
         surface, tuple(hull(area, boxes_of(old.place[given], side), _SEEN, surface).tolist())
     )
     order = order_by_clearance(field.clearance, grain_of(surface))
@@ -104,15 +105,14 @@ def _choose_in(area: np.ndarray, old: Nodes, before: Surface, surface: Surface, 
     given_maker = moved_cells(old.maker[given], before, surface, window)
     at = _places_among(where[order], given_maker, surface.clearance, grain_of(surface))
     order = np.insert(order, at, -1 - np.arange(len(given), dtype=np.int32))
-    given_cell = np.searchsorted(where, moved_cells(old.cell[given], before, surface, window)).astype(
-        np.int32
+    given_cell = moved_cells(old.cell[given], before, surface, window)
+    whole_cell, place, maker, label = select_nodes(
+        order, field, surface.field, where, least, given_cell, old.place[given]
     )
-    cell, place, maker, label = select_nodes(order, field, least, given_cell, old.place[given])
     made = maker >= 0
     was, whole_maker = np.full(len(maker), -1), np.empty(len(maker), np.int32)
     was[~made] = given[-1 - maker[~made]]
     whole_maker[made], whole_maker[~made] = where[maker[made]], given_maker[-1 - maker[~made]]
-    whole_cell = where[cell]
     was[made] = _found_again(
         (_spots(old.maker[there], before), _spots(old.cell[there], before), old.place[there]),
         (_spots(whole_maker[made], surface), _spots(whole_cell[made], surface), place[made]),

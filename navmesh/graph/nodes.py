@@ -3,7 +3,7 @@
 import numpy as np
 
 from navmesh.surface.clearance_field import centre_of
-from navmesh.surface.ridges import Field, half_width, middle_beside
+from navmesh.surface.ridges import half_width, middle_beside
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -15,10 +15,11 @@ def grain_of(surface: Surface) -> float:
     return surface.resolution / 64
 
 
-def all_nodes(surface: Surface, field: Field, least: float) -> tuple[np.ndarray, ...]:
+def all_nodes(surface: Surface, least: float) -> tuple[np.ndarray, ...]:
     """What `select_nodes` gives for all cells of a surface."""
     order = order_by_clearance(surface.clearance, grain_of(surface))
-    return select_nodes(order, field, least, np.empty(0, np.int32), np.empty((0, 3)))
+    none = np.empty(0, np.int32)
+    return select_nodes(order, surface.field, surface.field, none, least, none, np.empty((0, 3)))
 
 
 @allocating_kernel
@@ -90,24 +91,25 @@ def disc_at(field, c):
 
 
 @allocating_kernel
-def select_nodes(order, field, least, given_cell, given_place):
+def select_nodes(order, field, whole, where, least, given_cell, given_place):
     """Greedy cover by maximal discs, (almost) largest first.
 
-    ``order`` (n,) int32: cells by falling clearance (`order_by_clearance`); ``field`` is a
-    `navmesh.surface.ridges.Field`. A cell with at least ``least`` clearance that no disc as wide as itself
-    covers becomes the place of one: its centre or, between opposite sides, the middle of the passage. At -1 -
-    i in the order it is the turn of a node that is there anyway, in ``given_cell[i]`` at ``given_place[i]``.
+    ``order`` (n,) int32: cells by falling clearance (`order_by_clearance`); ``field`` is the
+    `navmesh.surface.clearance_field.FIELD` of all, ``whole``, or that of a part of its cells, ``where`` (n,)
+    int32, by rising number. A cell with at least ``least`` clearance that no disc as wide as itself covers
+    becomes the place of one: its centre or, between opposite sides, the middle of the passage. At -1 - i in
+    the order it is the turn of a node that is there anyway, in ``given_cell[i]`` at ``given_place[i]``.
 
-    Returns ``node_cell`` (m,) int32, ``place`` (m, 3) float64, x, y and radius [m], ``maker`` (m,) int32, the
-    entries of the order that made the nodes, and ``label`` (n,) int32: of the nodes that cover a cell the one
-    in whose disc it is deepest (least d² - r²), or -1.
+    Returns ``node_cell`` (m,) int32, by their numbers in the whole, ``place`` (m, 3) float64, x, y and radius
+    [m], ``maker`` (m,) int32, the entries of the order that made the nodes, and ``label`` (n,) int32: of the
+    nodes that cover a cell the one in whose disc it is deepest (least d² - r²), or -1.
     """
     cells = field.clearance.shape[0]
     label = np.full(cells, -1, np.int32)
     power = np.full(cells, np.inf)
     node_cell, maker = np.empty(order.shape[0], np.int32), np.empty(order.shape[0], np.int32)
     place = np.empty((order.shape[0], 3))
-    nodes = 0
+    nodes, part = 0, where.shape[0] > 0
     for at in range(order.shape[0]):
         c = order[at]
         if c < 0:
@@ -116,12 +118,12 @@ def select_nodes(order, field, least, given_cell, given_place):
         else:
             if label[c] >= 0:
                 continue
-            k, x, y, r = disc_at(field, c)
+            k, x, y, r = disc_at(whole, where[c] if part else c)
             if r < least:
                 continue
         node_cell[nodes], maker[nodes] = k, c
         place[nodes, 0], place[nodes, 1], place[nodes, 2] = x, y, r
-        _claim(field, label, power, nodes, k, x, y, r)
+        _claim(field, label, power, nodes, np.searchsorted(where, k) if part else k, x, y, r)
         if c >= 0:
             label[c] = nodes  # also where the disc is too small to hold the cell's centre
         nodes += 1

@@ -68,7 +68,7 @@ def unpack_surface(arrays: dict[str, np.ndarray], resolution: float, shape: tupl
         raise ValueError(f"surface_storey[{odd}] leads to no cell beside it, or to one that another leads to")
     floor = pack_floors(start, arrays["height"], arrays["gradient"])
     found = Cells(start, column, link, _starts(lists), arrays["blocker"], floor)
-    surface, _ = surface_of(found, Grid(arrays["origin"], resolution, shape))
+    surface = surface_of(found, Grid(arrays["origin"], resolution, shape))
     ix = column // np.int32(ny)
     iy = column - ix * np.int32(ny)
     room = np.minimum(np.minimum(ix, nx - 1 - ix), np.minimum(iy, ny - 1 - iy))

@@ -70,7 +70,7 @@ def find_low_passages(
     if least >= walking.headroom:
         return Obstacles.empty()
     grid = Grid(surface.origin, surface.resolution, surface.shape)
-    low = surface_of(find_cells(terrain, replace(walking, headroom=least), grid), grid)[0]
+    low = surface_of(find_cells(terrain, replace(walking, headroom=least), grid), grid)
     edge, outward, floor = _in_short_pieces(*_edges_of_low_places(surface, low))
     mesh_grid = MeshGrid(terrain.vertices, terrain.faces, surface.origin, walking.max_slope)
     measured = _measure(

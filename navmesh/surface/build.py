@@ -18,7 +18,6 @@ from navmesh.level.terrain import Terrain
 from navmesh.rules import WalkRules
 from navmesh.surface import blockers, clearance, floors, walls
 from navmesh.surface.floor_store import FloorStore, pack_floors
-from navmesh.surface.ridges import field_of
 from navmesh.surface.surface import Surface
 from navmesh.threads import in_threads, shares
 
@@ -192,8 +191,8 @@ def check_floor(cells: Cells | FoundCells, terrain: Terrain, rules: WalkRules) -
         )
 
 
-def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> tuple[Surface, np.ndarray]:
-    """The surface that ``cells`` make up, and how clearances were carried: `spread_clearance`'s choices."""
+def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> Surface:
+    """The surface that ``cells`` make up."""
     start, h, (nx, ny) = cells.blocker_start, grid.resolution, grid.shape
     nearest = blockers.nearest_blockers(start, cells.blocker, cells.cell_column, whole_patch(grid))
     source = np.arange(len(start) - 1, dtype=np.int32)
@@ -208,15 +207,15 @@ def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> tuple[Surface, np.
         floor=cells.floor,
         link=cells.link,
         clearance=free,
-        nearest=nearest,
+        choice=choice,
+        kept_nearest=np.empty((0, 2)),
         source=source,
         blocker_start=start,
         blocker=cells.blocker,
     )
-    field, every = field_of(surface), np.ones(len(surface), np.bool_)
     parts = pairwise(shares(len(surface), threads))
-    in_threads(lambda *part: clearance.settle_clearance(field, every, *part), list(parts), threads)
-    return surface, choice
+    in_threads(lambda *part: clearance.settle_clearance(surface.field, *part), list(parts), threads)
+    return surface
 
 
 def build_surface(terrain: Terrain, rules: WalkRules) -> Surface:
@@ -226,4 +225,4 @@ def build_surface(terrain: Terrain, rules: WalkRules) -> Surface:
     would have more than 4·10⁸ columns (wrong units or too fine a resolution).
     """
     grid = lay_grid(terrain.bounds, rules, terrain.name)
-    return surface_of(find_cells(terrain, rules, grid), grid)[0]
+    return surface_of(find_cells(terrain, rules, grid), grid)

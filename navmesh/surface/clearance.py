@@ -12,7 +12,7 @@ import numpy as np
 from navmesh.surface.clearance_field import centre_of, gap_at
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["settle_clearance", "spread_clearance", "sweep"]
+__all__ = ["settle_clearance", "settle_window", "spread_clearance", "sweep"]
 
 OWN, BACK, BACK_AHEAD, BACK_BEHIND, BEHIND_BACK, BEHIND = range(6)
 """Choices of the first turn of a pass, going forth: what it had; the cell in the strip behind; those beside
@@ -127,14 +127,19 @@ def spread_clearance(column_start, link, nearest, source, resolution, nx, ny):
 
 
 @kernel(nogil=True)
-def settle_clearance(field, chosen, first, last):
-    """Measure the clearance of those of the ``chosen`` cells (n,) bool from ``first`` up to, not including,
-    ``last`` that are within two cells of where walking ends, in place, in the lists of the cells around: what
-    was carried over the links is the nearest place of another cell."""
+def settle_clearance(field, first, last):
+    """Measure the clearance of those of the cells from ``first`` up to, not including, ``last`` that are
+    within two cells of where walking ends, in place, in the lists of the cells around: what was carried over
+    the links is the nearest place of another cell."""
     for c in range(first, last):
-        if chosen[c] and field.clearance[c] < 2.0 * field.cell:
+        if field.clearance[c] < 2.0 * field.cell:
             x, y = centre_of(field, c)
-            gap, qx, qy = gap_at(field, c, x, y)
-            if gap < field.clearance[c]:
-                field.clearance[c] = gap
-                field.nearest[c, 0], field.nearest[c, 1] = qx - x, qy - y
+            field.clearance[c] = min(field.clearance[c], gap_at(field, c, x, y)[0])
+
+
+@kernel
+def settle_window(field, column_start, window):
+    """`settle_clearance` of the cells in the columns of ``window``."""
+    for ix in range(window[0], window[2]):
+        here = ix * field.ny
+        settle_clearance(field, column_start[here + window[1]], column_start[here + window[3]])

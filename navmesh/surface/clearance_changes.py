@@ -14,16 +14,8 @@ import numpy as np
 from navmesh.level.raster import Patch, middle_of
 from navmesh.surface.blockers import nearest_in_list
 from navmesh.surface.build import LinkedCells, Window
-from navmesh.surface.clearance import (
-    AHEAD,
-    BACK,
-    BACK_AHEAD,
-    BACK_BEHIND,
-    BEHIND,
-    BEHIND_BACK,
-    OWN,
-    sweep,
-)
+from navmesh.surface.clearance import sweep
+from navmesh.surface.recall import came_from
 from navmesh.surface.splicing import splice, take
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -100,40 +92,14 @@ def _recalled(c, turn, link, choice, blocker_start, blocker, cell_column, patch,
     """What cell ``c`` knew after ``turn``: (x, y, the cell with the list, room for hops)."""
     count = 0
     while True:
-        back, side, other = (2, 3, 1) if turn < 2 else (0, 1, 3)
-        bits = choice[c] >> (4 * (turn // 2))
-        dx, dy = 0, 0
-        if turn % 2 == 1:
-            if bits & AHEAD:
-                c, dy = link[c, other], 1
-            else:
-                turn -= 1
-                continue
-        else:
-            way = bits & 7
-            if way == OWN:
-                if turn == 0:
-                    break
-                turn -= 1
-                continue
-            if way == BEHIND:
-                c, dy = link[c, side], -1
-            else:
-                dx = -1
-                turn += 1
-                if way == BACK:
-                    c = link[c, back]
-                elif way == BACK_AHEAD:
-                    c, dy = link[link[c, back], other], 1
-                elif way == BACK_BEHIND:
-                    c, dy = link[link[c, back], side], -1
-                elif way == BEHIND_BACK:
-                    c, dy = link[link[c, side], back], -1
+        other, turn, dx, dy = came_from(link, choice, c, turn)
+        if other < 0:
+            break
         if count == hops.shape[0]:
             hops = np.concatenate((hops, np.empty_like(hops)))
-        forth = 1 if turn < 2 else -1
-        hops[count, 0], hops[count, 1] = forth * dx, forth * dy
+        hops[count, 0], hops[count, 1] = dx, dy
         count += 1
+        c = other
     if blocker_start[c] == blocker_start[c + 1]:
         return np.inf, np.inf, -1, hops
     mx, my = middle_of(patch, cell_column[c])

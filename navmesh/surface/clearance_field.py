@@ -10,11 +10,38 @@ relative to the surface's origin, all distances are horizontal [m].
 from math import sqrt
 
 import numpy as np
+from numba import float64, int32, int64, uint8
 
 from navmesh.surface.floor_store import gradient_of, height_of
 from surefoot.kernels import kernel
+from surefoot.kernels.bundles import BundleType
 
-__all__ = ["cell_at", "centre_of", "floor_at", "gap_at", "same_place", "slope_at", "stretch_gap", "walk"]
+__all__ = [
+    "FIELD",
+    "cell_at",
+    "centre_of",
+    "floor_at",
+    "gap_at",
+    "same_place",
+    "slope_at",
+    "stretch_gap",
+    "walk",
+]
+
+
+FIELD = BundleType(
+    cell=float64,
+    ny=int64,
+    cell_column=int32[::1],
+    link=int32[:, ::1],
+    nearest=float64[:, ::1],
+    clearance=float64[::1],
+    choice=uint8[::1],
+    source=int32[::1],
+    blocker_start=int32[::1],
+    blocker=float64[:, ::1],
+)
+"""What is needed to measure distances before there is a graph; names as in `NET`."""
 
 
 @kernel(error_model="numpy", inline="always")

@@ -127,13 +127,17 @@ def renew_floors(
     blocks = _touched(np.array(window), ny, len(start) - 1)
     added = int((start[np.minimum((blocks + 1) * SIDE, len(start) - 1)] - start[blocks * SIDE]).sum())
     pool = _with_room(old, added, new.slopes_size)
-    pool.slopes[old.slopes_size : pool.used_slopes] = new.slopes[: new.slopes_size]
+    pool.slopes[old.slopes_size : old.slopes_size + new.slopes_size] = new.slopes[: new.slopes_size]
     at = old.at.copy()
-    _put_blocks(
-        blocks, at, old.at, old_start, new.at, new.height, new.slope, new_start, start, np.array(window),
-        patch, ny, old.size, old.slopes_size, pool.height, pool.slope,
+    bits = pool.height.view(np.int64), pool.slope, pool.slopes.view(np.int64)  # 0.0 is not -0.0
+    used = _put_blocks(
+        blocks, at, old.at, old_start, new.at, new.height.view(np.int64), new.slope, new_start, start,
+        np.array(window), patch, ny, old.size, old.slopes_size, *bits,
     )  # fmt: skip
-    renewed = FloorStore(at, pool, pool.used, pool.used_slopes, old.packed)
+    with _LOCK:
+        if pool.used == old.size + added:
+            pool.used = used  # the rest is free again
+    renewed = FloorStore(at, pool, used, old.slopes_size + new.slopes_size, old.packed)
     if renewed.size - renewed.packed > _FREE + int(start[-1]) // _STALE:
         return pack_floors(start, *renewed.unpacked(start))
     return renewed
@@ -177,13 +181,13 @@ def _touched(window: np.ndarray, ny: int, columns: int) -> np.ndarray:
 @kernel
 def _put_blocks(
     blocks, at, old_at, old_start, new_at, new_height, new_slope, new_start, start, window, patch, ny,
-    used, used_slopes, height, slope,
+    used, used_slopes, height, slope, slopes,
 ):  # fmt: skip
-    """Write the ``blocks`` behind the ``used`` cells of the pool, and where they are into ``at``."""
+    """Write the ``blocks`` behind the ``used`` cells of the pool, and where they are into ``at``; those that
+    are as they were stay where they are. Returns how many cells are used then."""
     columns = start.shape[0] - 1
     for i in range(blocks.shape[0]):
-        block = blocks[i]
-        at[block] = used
+        block, begin = blocks[i], used
         for c in range(block << _SHIFT, min((block + 1) << _SHIFT, columns)):
             ix = c // ny
             iy = c - ix * ny
@@ -201,6 +205,18 @@ def _put_blocks(
                     height[used + j] = height[there + j]
                     slope[used + j] = slope[there + j]
             used += size
+        last = min((block + 1) << _SHIFT, columns)
+        there, size = np.int64(old_at[block]), old_start[last] - old_start[block << _SHIFT]
+        same = size == used - begin
+        for j in range(size if same else 0):
+            a, b = slope[begin + j], slope[there + j]
+            same &= height[begin + j] == height[there + j]
+            same &= slopes[a, 0] == slopes[b, 0] and slopes[a, 1] == slopes[b, 1]
+        if same:
+            used = begin
+        else:
+            at[block] = begin
+    return used
 
 
 @kernel

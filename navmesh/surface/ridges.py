@@ -7,53 +7,21 @@ sides of a passage face each other, its middle is looked for on the line across,
 """
 
 from math import sqrt
-from typing import NamedTuple
 
 import numpy as np
 
 from navmesh.surface.clearance_field import centre_of, gap_at, stretch_gap
-from navmesh.surface.surface import Surface
+from navmesh.surface.recall import nearest_of, nearly_nearest_of
 from surefoot.kernels import kernel
 
-__all__ = ["Field", "field_of", "half_width", "middle", "middle_beside", "widest_through"]
+__all__ = ["half_width", "middle", "middle_beside", "widest_through"]
 
 _HALVINGS = 7
 
 
-class Field(NamedTuple):
-    """What `navmesh.surface.clearance_field` needs to measure distances, before there is a graph; names as in
-    `NET`."""
-
-    cell: float
-    ny: int
-    cell_column: np.ndarray
-    link: np.ndarray
-    nearest: np.ndarray
-    clearance: np.ndarray
-    source: np.ndarray
-    blocker_start: np.ndarray
-    blocker: np.ndarray
-
-
-def field_of(surface: Surface) -> Field:
-    """The field of a surface."""
-    return Field(
-        surface.resolution,
-        surface.shape[1],
-        surface.cell_column,
-        surface.link,
-        surface.nearest,
-        surface.clearance,
-        surface.source,
-        surface.blocker_start,
-        surface.blocker,
-    )
-
-
-@kernel(error_model="numpy")
-def half_width(field, c):
-    """Half the distance [m] between the places on opposite sides of cell ``c`` where walking ends, as its
-    neighbours know them: no wider body passes there. inf where it is not between two sides."""
+@kernel(error_model="numpy", inline="always")
+def _half_width(field, c):
+    """`half_width` where `nearest` is kept."""
     vx, vy = field.nearest[c, 0], field.nearest[c, 1]
     least = np.inf
     for d in range(4):
@@ -63,6 +31,39 @@ def half_width(field, c):
         if n >= 0:
             wx += field.nearest[n, 0]
             wy += field.nearest[n, 1]
+        if vx * wx + vy * wy < -1e-6:
+            least = min(least, (vx - wx) * (vx - wx) + (vy - wy) * (vy - wy))
+    return 0.5 * sqrt(least)
+
+
+@kernel(error_model="numpy")
+def half_width(field, c):
+    """Half the distance [m] between the places on opposite sides of cell ``c`` where walking ends, as its
+    neighbours know them: no wider body passes there. inf where it is not between two sides."""
+    if field.nearest.shape[0] > 0:
+        return _half_width(field, c)
+    vx, vy = nearly_nearest_of(field, c)
+    far, source = field.clearance[c] >= 2.0 * field.cell, field.source[c]
+    exact = not far  # whether v is known to the last bit
+    least = np.inf
+    for d in range(4):
+        n = field.link[c, d]
+        hx = ((1 if d == 0 else 0) - (1 if d == 2 else 0)) * field.cell
+        hy = ((1 if d == 1 else 0) - (1 if d == 3 else 0)) * field.cell
+        wx, wy = 0.0, 0.0
+        if n >= 0:
+            beyond = field.clearance[n] >= 2.0 * field.cell
+            if far and beyond and field.source[n] == source:
+                continue  # both look to the same place
+            wx, wy = nearly_nearest_of(field, n)
+            if vx * (hx + wx) + vy * (hy + wy) > 0.0:
+                continue
+            if beyond:
+                wx, wy = nearest_of(field, n)
+        if not exact:
+            vx, vy = nearest_of(field, c)
+            exact = True
+        wx, wy = hx + wx, hy + wy
         if vx * wx + vy * wy < -1e-6:
             least = min(least, (vx - wx) * (vx - wx) + (vy - wy) * (vy - wy))
     return 0.5 * sqrt(least)

@@ -7,10 +7,14 @@ of the floor (rule 3) lies between their centres.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from navmesh.surface.clearance_field import FIELD
 from navmesh.surface.floor_store import FloorStore
+from navmesh.surface.recall import recall
+from surefoot.kernels.bundles import Bundle
 
 __all__ = ["DIRECTIONS", "Surface"]
 
@@ -38,8 +42,10 @@ class Surface:
     """(n, 4) int32: the cell that one walks to in +x, +y, -x, -y, or -1 where walking ends. Symmetric."""
     clearance: np.ndarray
     """(n,) float64 [m]: horizontal distance from the cell's centre to where walking ends."""
-    nearest: np.ndarray
-    """(n, 2) float64 [m]: the vector from the cell's centre to that place; its length is `clearance`."""
+    choice: np.ndarray
+    """(n,) uint8: how the place was carried to the cell, see `navmesh.surface.clearance`."""
+    kept_nearest: np.ndarray
+    """(n, 2) float64: `nearest` where something changes it in place (zones), else (0, 2): it is recalled."""
     source: np.ndarray
     """(n,) int32: the cell that has that place in its list of blockers, or -1 where walking ends nowhere."""
     blocker_start: np.ndarray
@@ -50,6 +56,25 @@ class Surface:
 
     def __len__(self) -> int:
         return len(self.cell_column)
+
+    @property
+    def field(self) -> Any:
+        """What kernels need to measure distances, a `FIELD`."""
+        return Bundle(
+            FIELD, cell=self.resolution, ny=self.shape[1], cell_column=self.cell_column, link=self.link,
+            nearest=self.kept_nearest, clearance=self.clearance, choice=self.choice, source=self.source,
+            blocker_start=self.blocker_start, blocker=self.blocker,
+        )  # fmt: skip
+
+    @property
+    def nearest(self) -> np.ndarray:
+        """(n, 2) float64 [m]: the vector from the cell's centre to the nearest place where walking ends; its
+        length is `clearance`. Recalled for all cells each time."""
+        if len(self.kept_nearest):
+            return self.kept_nearest
+        nearest = np.empty((len(self), 2))
+        recall(self.field, self.column_start, self.shape[0], nearest)
+        return nearest
 
     @property
     def height(self) -> np.ndarray:

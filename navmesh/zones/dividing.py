@@ -68,8 +68,9 @@ def divide(graph: "NodeGraph", outlines: dict[str, np.ndarray], may_be_nowhere: 
     cell_start, cell_known = grouped(zone, len(local), known.astype(np.int32))
     sides, side_start = sides_of(local)
     lists = lists_with(surface, cell[order], zone[order], side_start)
+    nearest = surface.nearest
     divided = replace(
-        surface, link=surface.link.copy(), clearance=surface.clearance.copy(), nearest=surface.nearest.copy(),
+        surface, link=surface.link.copy(), clearance=surface.clearance.copy(), kept_nearest=nearest,
         source=lists.source, blocker_start=lists.blocker_start, blocker=lists.blocker,
     )  # fmt: skip
     side_zone = np.searchsorted(side_start, lists.side, side="right") - 1
@@ -77,12 +78,12 @@ def divide(graph: "NodeGraph", outlines: dict[str, np.ndarray], may_be_nowhere: 
     switches = {
         "grain": grain_of(surface), "least": graph.rules.min_radius, "first_piece": len(graph),
         "blocked": np.zeros(len(local), np.int32), "cell_start": cell_start, "cell_known": cell_known,
-        "known_cell": known_cell.astype(np.int32), "known_nearest": surface.nearest[known_cell],
+        "known_cell": known_cell.astype(np.int32), "known_nearest": nearest[known_cell],
         "known_clearance": surface.clearance[known_cell],
         "near_start": near_start, "near_zone": near_zone, "near": near,
         "side_start": row_start, "side_row": row, "side": np.ascontiguousarray(sides[side]),
         "origin": np.ascontiguousarray(surface.origin, np.float64), "all_link": divided.link,
-        "all_clearance": divided.clearance, "all_nearest": divided.nearest, "all_blocker": divided.blocker,
+        "all_clearance": divided.clearance, "all_nearest": nearest, "all_blocker": divided.blocker,
     }  # fmt: skip
     users = _users(graph, local, found)
     switches |= _cuts(found, surface) | users

@@ -55,7 +55,7 @@ def _made(graph: "NodeGraph") -> "NodeGraph":
         edge_gate=gate, edge_cells=border, links=links, kept_build=None, zone_state=None, cache={},
         surface=replace(
             surface, link=surface.link.copy(), clearance=surface.clearance.copy(),
-            nearest=surface.nearest.copy(), blocker=surface.blocker.copy(),
+            kept_nearest=surface.kept_nearest.copy(), blocker=surface.blocker.copy(),
         ),
     )  # fmt: skip
 

@@ -19,7 +19,7 @@ def build(*meshes, rules: WalkRules = RULES) -> NodeGraph:
 def arrays_of(surface: Surface) -> dict[str, np.ndarray]:
     """All that a surface holds, by name, its floors unpacked."""
     kept = {field.name: getattr(surface, field.name) for field in fields(surface) if field.name != "floor"}
-    return kept | {"height": surface.height, "gradient": surface.gradient}
+    return kept | {name: getattr(surface, name) for name in ("nearest", "height", "gradient")}
 
 
 def parts(graph: NodeGraph, radius: float, *points) -> list[int]:

@@ -26,9 +26,7 @@ def rocks(*places):
 )
 def test_of_rocks_on_a_plain(before, after):
     grid = lay_grid(rocks().bounds, RULES, "plain")
-    (old, choice), (new, chosen) = (
-        surface_of(find_cells(rocks(*places), RULES, grid), grid) for places in (before, after)
-    )
+    old, new = (surface_of(find_cells(rocks(*places), RULES, grid), grid) for places in (before, after))
     x, y = np.array((before or after)[0])
     around = np.array([x - 2, y - 2, x + 4, y + 4]) / grid.resolution
 
@@ -40,18 +38,18 @@ def test_of_rocks_on_a_plain(before, after):
     inner, window = columns(0), columns(8)
     fresh = find_cells(rocks(*after), RULES, grid, window)
     found = renew_clearance(
-        cells_of_surface(old), choice, fresh, inner, patch_around(grid, window), whole_patch(grid), 1.0
+        cells_of_surface(old), old.choice, fresh, inner, patch_around(grid, window), whole_patch(grid), 1.0
     )
     assert found is not None
     left, near, right, far = found.window
     assert left <= inner[0] and near <= inner[1] and right >= inner[2] and far >= inner[3]
     ix, iy = np.divmod(new.cell_column, grid.shape[1])
     inside = (ix >= left) & (ix < right) & (iy >= near) & (iy < far)
-    np.testing.assert_array_equal(found.choice, chosen[inside])
+    np.testing.assert_array_equal(found.choice, new.choice[inside])
     settled = new.clearance[inside] >= 2.0 * grid.resolution
     np.testing.assert_array_equal(found.nearest[settled], new.nearest[inside][settled])
     # beyond the window nothing is other than before
     ox, oy = np.divmod(old.cell_column, grid.shape[1])
     beyond = ~((ox >= left) & (ox < right) & (oy >= near) & (oy < far))
     np.testing.assert_array_equal(old.clearance[beyond], new.clearance[~inside])
-    np.testing.assert_array_equal(choice[beyond], chosen[~inside])
+    np.testing.assert_array_equal(old.choice[beyond], new.choice[~inside])

@@ -7,8 +7,8 @@ import pytest
 
 from navmesh.graph.kernel_arrays import net_of
 from navmesh.graph.snapping import snap
-from navmesh.surface.clearance_field import gap_at, stretch_gap, walk
-from navmesh.surface.ridges import Field
+from navmesh.surface.clearance_field import FIELD, gap_at, stretch_gap, walk
+from surefoot.kernels.bundles import Bundle
 from tests.navmesh.routes.path_references import (
     FIELD_ERROR,
     build,
@@ -73,9 +73,11 @@ def test_of_two_equally_near_blockers_the_first_counts_however_often_it_is_asked
         blocker = np.repeat([[off, ahead], [-off, ahead], [off, ahead]], 2, axis=0).reshape(3, 4)
         told = []
         for source in ((0, 1, 0), (0, 1, 2)):
-            field = Field(
-                0.25, 9, np.zeros(3, np.int32), link, np.zeros((3, 2)), np.ones(3),
-                np.array(source, np.int32), np.arange(4, dtype=np.int32), blocker,
+            field = Bundle(
+                FIELD, cell=0.25, ny=9, cell_column=np.zeros(3, np.int32), link=link,
+                nearest=np.zeros((3, 2)), clearance=np.ones(3), choice=np.zeros(3, np.uint8),
+                source=np.array(source, np.int32), blocker_start=np.arange(4, dtype=np.int32),
+                blocker=blocker,
             )  # fmt: skip
             told.append(stretch_gap(field, 0, -1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.05, 2.0))
         assert told[0] == told[1]

@@ -5,9 +5,8 @@ import pytest
 
 from benchmarks.apartments import apartment
 from navmesh import NodeGraph
-from navmesh.graph.edges import measure_edges
+from navmesh.graph.edges import border_pairs, measure_edges
 from navmesh.graph.kernel_arrays import net_of
-from navmesh.surface.ridges import field_of
 from navmesh.zones.switching import SWITCHES
 from navmesh.zones.zones import zones_of
 from tests.navmesh.shapes import box, plane, terrain
@@ -98,7 +97,9 @@ def test_edges_of_pieces_are_those_that_the_whole_would_have():
     graph.block(*list(outlines)[::2])
     net, pieces = net_of(graph), zones_of(graph).switches.first_piece
     place = np.column_stack([net.nodes["position"][:, :2], graph.radii])
-    ends, width, gate, _ = measure_edges(graph.label, field_of(graph.surface), place)
+    surface = graph.surface
+    key, pair, clear = border_pairs(graph.label, surface.link, surface.clearance)
+    ends, width, gate, _ = measure_edges(key, pair, clear, surface.field, place)
     found = {(a, b): (wide, *where) for a, b, wide, *where, _, _ in edges_of_pieces(graph) if a < b}
     wanted = {
         (int(a), int(b)): (w, *where)

@@ -1,0 +1,179 @@
+"""The nearest places where walking ends, recalled: they are not kept for every cell.
+
+For each cell a byte says where it took its place from in each of the four turns in which clearances were
+carried (`navmesh.surface.clearance`). Followed back to a list of blockers, and added up again hop by hop,
+they give the vectors bit for bit.
+"""
+
+import numpy as np
+
+from navmesh.surface.blockers import nearest_in_list
+from navmesh.surface.clearance import AHEAD, BACK, BACK_AHEAD, BACK_BEHIND, BEHIND, BEHIND_BACK, OWN
+from navmesh.surface.clearance_field import centre_of, gap_at
+from surefoot.kernels import kernel
+
+__all__ = ["came_from", "nearest_of", "nearly_nearest_of", "recall"]
+
+_LAST = 3
+"""The last of the four turns."""
+
+
+@kernel(error_model="numpy")
+def came_from(link, choice, c, turn):
+    """Where cell ``c`` took from what it knew after ``turn``: (cell, the turn after which that knew it, hop
+    in x, hop in y), hops in cells; cell -1 where it is from its own list, -2 where no link leads there."""
+    while True:
+        back, side, other = (2, 3, 1) if turn < 2 else (0, 1, 3)
+        forth = 1 if turn < 2 else -1
+        bits = choice[c] >> (4 * (turn >> 1))
+        if turn & 1 == 1:
+            if bits & AHEAD:
+                return _over(link, np.int64(c), other), turn, 0, forth
+        else:
+            way = bits & 7
+            if way == BEHIND:
+                return _over(link, np.int64(c), side), turn, 0, -forth
+            if way == BACK:
+                return _over(link, np.int64(c), back), turn + 1, -forth, 0
+            if way == BACK_AHEAD:
+                return _over(link, _over(link, np.int64(c), back), other), turn + 1, -forth, forth
+            if way == BACK_BEHIND:
+                return _over(link, _over(link, np.int64(c), back), side), turn + 1, -forth, -forth
+            if way == BEHIND_BACK:
+                return _over(link, _over(link, np.int64(c), side), back), turn + 1, -forth, -forth
+        if turn == 0:
+            return np.int64(-1), 0, 0, 0
+        turn -= 1
+
+
+@kernel(error_model="numpy", inline="always")
+def _over(link, c, way):
+    """The cell that a link leads to; -2 where there is none."""
+    other = np.int64(link[c, way]) if c >= 0 else np.int64(-2)
+    return other if other >= 0 else np.int64(-2)
+
+
+@kernel(error_model="numpy")
+def recall(field, column_start, nx, nearest):
+    """Fill in ``nearest`` (n, 2) float64 [m] of all cells of a `FIELD` of ``nx`` strips of columns. The turns
+    are gone through again in their order, so each cell finds what it took."""
+    link, choice, cells = field.link, field.choice, field.link.shape[0]
+    for c in range(cells):
+        nearest[c, 0], nearest[c, 1] = _own_place(field, c)
+    h = field.cell
+    for turn in range(0, 4, 2):
+        back, side, other = (2, 3, 1) if turn == 0 else (0, 1, 3)
+        forth = h if turn == 0 else -h
+        for s in range(nx):
+            ix = s if turn == 0 else nx - 1 - s
+            first, last = column_start[ix * field.ny], column_start[(ix + 1) * field.ny]
+            for i in range(first, last):
+                c = i if turn == 0 else first + last - 1 - i
+                way = (choice[c] >> (2 * turn)) & 7
+                if way == OWN:
+                    continue
+                first_step = side if way == BEHIND or way == BEHIND_BACK else back
+                n, x, y = np.int64(link[c, first_step]), -forth, 0.0
+                if way == BEHIND:
+                    x, y = 0.0, -forth
+                elif way == BACK_AHEAD:
+                    n, y = np.int64(link[n, other]), forth
+                elif way == BACK_BEHIND:
+                    n, y = np.int64(link[n, side]), -forth
+                elif way == BEHIND_BACK:
+                    n, y = np.int64(link[n, back]), -forth
+                _take(nearest, c, n, x, y)
+            for i in range(first, last):
+                c = first + last - 1 - i if turn == 0 else i
+                if (choice[c] >> (2 * turn)) & AHEAD:
+                    _take(nearest, c, np.int64(link[c, other]), 0.0, forth)
+    for c in range(cells):
+        nearest[c, 0], nearest[c, 1] = _settled(field, c, nearest[c, 0], nearest[c, 1])
+
+
+@kernel(error_model="numpy", inline="always")
+def _take(nearest, c, n, dx, dy):
+    """Put in what cell ``c`` took from cell ``n``."""
+    nearest[c, 0] = nearest[n, 0] + dx if dx != 0.0 else nearest[n, 0]
+    nearest[c, 1] = nearest[n, 1] + dy if dy != 0.0 else nearest[n, 1]
+
+
+@kernel(error_model="numpy", inline="always")
+def _own_place(net, c):
+    """The vector from the centre of cell ``c`` to the nearest place in its own list; inf without one."""
+    if net.blocker_start[c] == net.blocker_start[c + 1]:
+        return np.inf, np.inf
+    x, y = centre_of(net, c)
+    return nearest_in_list(net.blocker, net.blocker_start[c], net.blocker_start[c + 1], x, y)
+
+
+@kernel(error_model="numpy", inline="always")
+def _after(x, y, dx, dy, h):
+    if dx != 0:
+        x += dx * h
+    if dy != 0:
+        y += dy * h
+    return x, y
+
+
+@kernel(error_model="numpy")
+def _known(net, c):
+    """What cell ``c`` knew after the last turn."""
+    choice = net.choice
+    at, then, count = c, _LAST, 0
+    east, west, north, south = 0, 0, 0, 0
+    while choice[at] != 0:
+        other, then, dx, dy = came_from(net.link, choice, at, then)
+        if other < 0:
+            break
+        east, west = east + (dx > 0), west + (dx < 0)
+        north, south = north + (dy > 0), south + (dy < 0)
+        at = other
+        count += 1
+    x, y = _own_place(net, at)
+    if east * west == 0 and north * south == 0:  # one by one, as they were added
+        for _ in range(east + west):
+            x += net.cell if east else -net.cell
+        for _ in range(north + south):
+            y += net.cell if north else -net.cell
+        return x, y
+    for hop in range(count - 1, -1, -1):  # there and back: each after those nearer to the place
+        at, then, dx, dy = c, _LAST, 0, 0
+        for _ in range(hop + 1):
+            at, then, dx, dy = came_from(net.link, choice, at, then)
+        x, y = _after(x, y, dx, dy, net.cell)
+    return x, y
+
+
+@kernel(error_model="numpy")
+def _settled(field, c, x, y):
+    """What `navmesh.surface.clearance.settle_clearance` makes of the vector (x, y) carried to cell ``c``: it
+    stays, or something nearer was found when the clearance was measured."""
+    if np.sqrt(x * x + y * y) == field.clearance[c]:
+        return x, y
+    cx, cy = centre_of(field, c)
+    _, qx, qy = gap_at(field, c, cx, cy)
+    return qx - cx, qy - cy
+
+
+@kernel(error_model="numpy")
+def nearest_of(net, c):
+    """The vector [m] from the centre of cell ``c`` to the nearest place where walking ends."""
+    if net.nearest.shape[0] > 0:
+        return net.nearest[c, 0], net.nearest[c, 1]
+    x, y = _known(net, np.int64(c))
+    return _settled(net, c, x, y)
+
+
+@kernel(error_model="numpy")
+def nearly_nearest_of(net, c):
+    """`nearest_of`, but for rounding: without going the way that the place was carried."""
+    if net.nearest.shape[0] > 0 or net.clearance[c] < 2.0 * net.cell:
+        return nearest_of(net, c)
+    source = np.int64(net.source[c])
+    if source < 0:
+        return np.inf, np.inf
+    x, y = _own_place(net, source)
+    cx, cy = centre_of(net, c)
+    px, py = centre_of(net, source)
+    return x + (px - cx), y + (py - cy)

@@ -100,7 +100,7 @@ def _prepare() -> None:
 
 
 def _is_prepared() -> bool:
-    return import_module("runtime.warmup").is_kept()
+    return import_module("runtime.warmup").is_compiled()
 
 
 prepare_with(_prepare, _is_prepared)  # for worlds, which import nothing of the warm-up: it makes worlds

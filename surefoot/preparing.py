@@ -32,9 +32,9 @@ def prepare_with(prepare: Callable[[], object], is_prepared: Callable[[], bool])
 
 
 def prepare_once() -> None:
-    """Compile all kernels if this version has never done so on this machine, or what it kept is gone. Called
-    by worlds, so that no step of theirs compiles. Where they cannot be kept, as on a full disk, it does so
-    once in a process."""
+    """Compile all kernels if they have not been compiled on this machine as they are now, or what was kept is
+    gone. Called by worlds, so that no step of theirs compiles. Where they cannot be kept, as on a full disk,
+    it does so once in a process."""
     if Preparing.going_on or not _preparers or mark_of_kernels() is None:
         return
     prepare, is_prepared = _preparers[0]
@@ -53,16 +53,21 @@ def prepare_once() -> None:
 
 
 def mark_of_kernels() -> Path | None:
-    """The file that says of which sources all kernels are kept, and in which files; None without a cache."""
+    """The file that says in which files all kernels of the present sources are kept; None without a cache.
+
+    Each version and checkout that shares the folder has one of its own.
+    """
     # imported when first asked for: `surefoot --help` needs no compiler
     import llvmlite
     import numba
     from llvmlite.binding import get_host_cpu_name
 
     from surefoot.kernels.folder import cache_folder
+    from surefoot.kernels.sources import digest_of_sources
 
     folder = cache_folder()
+    if folder is None:
+        return None
     versions = (surefoot.__version__, sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)
-    machine = f"{versions} {platform.system()} {get_host_cpu_name()}"
-    name = f"kept-{hashlib.sha256(machine.encode()).hexdigest()[:24]}"
-    return None if folder is None else folder / name
+    machine = f"{versions} {digest_of_sources()} {platform.system()} {get_host_cpu_name()}"
+    return folder / f"kept-{hashlib.sha256(machine.encode()).hexdigest()[:24]}"

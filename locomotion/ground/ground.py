@@ -197,7 +197,8 @@ class Ground:
 
         Returns z (n,) float64 [m], NaN where nothing is below, and unit normals (n, 3) float64.
         """
-        wanted = np.atleast_2d(np.asarray(points, dtype=np.float64)) - self._origin
+        # of another layout the kernel would be compiled once more
+        wanted = np.atleast_2d(np.asarray(points, dtype=np.float64, order="C")) - self._origin
         if wanted.shape[1] != 3:
             raise LocomotionError(f"points have the shape {wanted.shape}; give (n, 3)")
         heights, normals = np.full(len(wanted), np.nan), np.full((len(wanted), 3), np.nan)

@@ -36,6 +36,8 @@ def posed(
     -π to π. ``roots``: (n, 7) float64, places of the pelvises."""
     s = skeleton
     out = np.empty((len(channels), len(s.bodies), 7))
+    # of another layout the kernel would be compiled once more
+    channels, roots = np.ascontiguousarray(channels), np.ascontiguousarray(roots)
     pose_bodies(s.parents, s.offsets, s.first, s.axes, s.signs, channels, roots, out)
     return out
 

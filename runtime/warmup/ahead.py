@@ -1,54 +1,37 @@
 """Compile all kernels in several processes, and load them."""
 
-import hashlib
 import os
-import re
 from collections.abc import Callable
-from functools import cache
-from pathlib import Path
 
-import surefoot
 from runtime.warmup.sharing import run_shared
 from surefoot.compile_notice import TIME
-from surefoot.kernels.dependencies import PACKAGES
 from surefoot.kernels.folder import forget_old, note_use, unwritten, write_whole
 from surefoot.kernels.loading import load_kept
 from surefoot.preparing import Preparing, mark_of_kernels
 from surefoot.progress import Progress
 
-__all__ = ["compile_kernels", "is_compiled", "is_kept", "load_kernels", "prepare"]
+__all__ = ["compile_kernels", "is_compiled", "load_kernels", "prepare"]
 
 _KERNELS = 410
 """Approximate number of kernels."""
-_KERNEL = re.compile(rb"^@(?:allocating_)?kernel\b|\bcfunc\(", re.MULTILINE)
 
 
 def is_compiled() -> bool:
-    """Whether all kernels, in their present version, are cached on this machine. Notes that they are used."""
-    return _kept_sources() == _sources()
-
-
-def is_kept() -> bool:
-    """Whether all kernels were compiled once on this machine, perhaps from other sources of this version, and
-    none of their files is gone. Notes that they are used: a game loads some only now and then."""
-    return _kept_sources() is not None
-
-
-def _kept_sources() -> str | None:
-    """`_sources` of which all kernels are kept; None if they are not, or what says so cannot be read."""
+    """Whether all kernels, in their present version, are cached on this machine. Notes that they are used: a
+    game loads some only now and then."""
     mark = mark_of_kernels()
     if mark is None:
-        return None
+        return False
     try:
-        sources, *names = mark.read_text(encoding="utf-8").splitlines()
+        names = mark.read_text(encoding="utf-8").splitlines()
         if not names or not set(names) <= set(os.listdir(mark.parent)):
-            return None
+            return False
     except (OSError, ValueError):  # none, damaged, or removed meanwhile
-        return None
+        return False
     if note_use(mark):
         for name in names:
             note_use(mark.parent / name)
-    return sources
+    return True
 
 
 def prepare(progress: Callable[[float, str], object] | None = None) -> None:
@@ -81,30 +64,16 @@ def _compile(told: Callable[[float, str], object]) -> None:
         return
     Preparing.going_on = True
     try:
-        is_new = not is_compiled()
-        if is_new:
-            run_shared(FIRST_USES, lambda count, what: told(min(count / _KERNELS, 0.99), what))
+        files = set[str]()
+        if not is_compiled():
+            files = run_shared(FIRST_USES, lambda count, what: told(min(count / _KERNELS, 0.99), what))
         import runtime.world.world  # noqa: F401  what a frame runs
 
-        files = load_kept()
+        load_kept()
         mark = mark_of_kernels()
-        if is_new and mark is not None and unwritten() <= {mark}:
-            names = sorted({file.name for file in files})
-            write_whole(mark, "\n".join([_sources(), *names]).encode())
+        if files and mark is not None and unwritten() <= {mark}:
+            write_whole(mark, "\n".join(sorted(files)).encode())
             forget_old()
     finally:
         Preparing.going_on = False
     told(1.0, "all kernels")
-
-
-@cache
-def _sources() -> str:
-    """Hex digest of all files with kernels."""
-    root, checksum = Path(surefoot.__file__).parents[1], hashlib.sha256()
-    for package in PACKAGES:
-        for file in sorted((root / package).rglob("*.py")):
-            content = file.read_bytes()
-            if _KERNEL.search(content):
-                checksum.update(f"{file.relative_to(root)} {len(content)}\0".encode())
-                checksum.update(content)
-    return checksum.hexdigest()

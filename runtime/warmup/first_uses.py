@@ -81,6 +81,31 @@ def _navigate() -> None:
     graph.update({"crate": navmesh.Terrain.from_arrays(np.array(crate), np.array([[0, 1, 2], [0, 2, 3]]))})
 
 
+def _change_a_little() -> None:
+    """An update that reaches only some of a level: one of several islands."""
+    from runtime.planning.rules import person_walk_rules
+
+    def floor(x0: float, x1: float, y0: float, y1: float, z: float) -> navmesh.Terrain:
+        corners = [[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]]
+        return navmesh.Terrain.from_arrays(np.array(corners), np.array([[0, 1, 2], [0, 2, 3]]))
+
+    islands = {f"island{k}": floor(12.0 * k, 12.0 * k + 8.0, 0.0, 5.0, 0.0) for k in range(12)}
+    graph = navmesh.NodeGraph.build(navmesh.join_chunks(islands), person_walk_rules())
+    start, goal = (1.0, 2.5, 0.0), (7.0, 2.5, 0.0)
+    graph.find_path(start, goal, radius=0.3)
+    graph = graph.update({"crate": floor(3.5, 4.5, 2.0, 3.0, 0.7)})
+    graph.find_path(start, goal, radius=0.3)
+
+
+def _walk_through_an_open_world() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        kept = Path(folder) / "level.world"
+        navmesh.bake_open_world(tiny_level(), kept, side=10.0)
+        world = navmesh.OpenWorld(kept, radius=5.0)
+        world.keep_around((1.0, 1.0, 0.0))
+        world.route((1.0, 1.0, 0.0), (11.0, 6.0, 0.0), 0.3)
+
+
 def _find_by_costs() -> None:
     bare = tiny_level()
     in_mud = bare.vertices[bare.faces].mean(axis=1)[:, 1] > 4.0
@@ -171,7 +196,13 @@ def _animals() -> None:
     world.spawn("dog", (8.0, 1.5, 0.0)).go_to((1.5, 2.5, 0.0), speed=1.5)
     world.spawn("dog", (11.2, 4.8, 0.0), facing=-1.0).go_to((8.0, 6.0, 0.0), speed=1.0)  # in a corner
     world.spawn("human", (5.0, 3.0, 0.0)).go_to((1.5, 2.0, 0.0), speed=1.2)
-    world.step(8.0)
+    world.step(1.0)
+    saved = world.save()
+    for agent in world.agents.values():
+        agent.stop()
+    world.step(0.5)
+    world.restore(saved)
+    world.step(7.0)
 
 
 def _crowds() -> None:
@@ -184,7 +215,11 @@ def _crowds() -> None:
         walker.go_to((3.0, 6.5, 0.0), speed=1.5)
     recorded = world.spawn("human", (7.0, 1.0, 0.0), detail="low")
     recorded.go_to((7.0, 5.0, 0.0), speed=1.5)
-    world.step(8.0)
+    world.step(1.0)
+    for detail in ("full", "physics", "low"):
+        recorded.detail = detail
+        world.step(1.0)
+    world.step(5.0)
     recorded.take_posture("kneel")
     world.step(0.5)
     world.transforms()
@@ -226,20 +261,28 @@ def _draw() -> None:
 
 def _walk_as_learned() -> None:
     from locomotion.training.policies.trial import PolicyTrial
+    from runtime.world.world import World
 
     PolicyTrial(load_policy()).tick()
+    world = World(tiny_level(), walk="learned")
+    world.spawn("human", (1.5, 2.0, 0.0)).go_to((9.0, 2.0, 0.0), speed=1.3)
+    world.step(3.0)
 
 
 def _play_recorded() -> None:
+    from locomotion.postures.step_order import gaits_for
     from locomotion.recorded.foot_planting import planted
     from locomotion.recorded.motion_set import load_motions
     from locomotion.recorded.posing import posed
     from locomotion.recorded.sampling import sample_clips, sample_gait
     from locomotion.recorded.skeletons import FULL, skeleton
+    from locomotion.recorded_people.drawing import drawn
     from locomotion.recorded_people.people import RecordedPeople
 
     motions, zero = load_motions(), np.zeros(1)
-    posed(skeleton("full"), *sample_clips(motions, FULL, [0], zero))
+    frame = sample_clips(motions, FULL, [0], zero)
+    posed(skeleton("full"), *frame)
+    drawn("full", *frame)
     walk, place = motions.gait("walk"), np.zeros(4)
     sample, footfalls = sample_gait(motions, FULL, [walk], zero, zero), np.zeros((1, 2, 2, 6))
     planted(motions, FULL, ([walk], zero, zero), sample, [place], footfalls)
@@ -248,7 +291,11 @@ def _play_recorded() -> None:
     people = RecordedPeople(navmesh.NodeGraph.build(terrain), ground=ground)
     people.add(terrain.vertices.mean(axis=0), 0.0, FULL, np.random.default_rng(0))
     people.tick()
-    people.transforms(np.zeros(1, np.int64))
+    one = np.zeros(1, np.int64)
+    people.transforms(one)
+    people.due(one, 0.0, 1.0)
+    none = np.full(1, -1, np.int32)
+    gaits_for((), none, none, zero)
 
 
 def _show_a_character() -> None:
@@ -265,6 +312,8 @@ def _show_a_character() -> None:
 FIRST_USES: dict[str, Callable[[], None]] = {
     "navigation": _navigate,
     "area costs": _find_by_costs,
+    "updates": _change_a_little,
+    "open worlds": _walk_through_an_open_world,
     "walking and getting up": _fall_and_get_up,
     "learned walk": _walk_as_learned,
     "braking": _brake,

@@ -1,6 +1,7 @@
 """A process that runs the uses whose names it reads: ``python -m runtime.warmup.helper``.
 
-It writes a line for each kernel that it compiles, and "done" after each use. It ends with its parent, and
+It writes a line for each kernel that it compiles, "used" with the name of its file for each that it has used,
+and "done" after each use. It ends with its parent, and
 where it cannot keep what it compiles: that is then done by its parent, for itself.
 """
 
@@ -17,6 +18,7 @@ def main() -> None:
     Thread(target=_read, args=(asked,), daemon=True).start()
     from runtime.warmup.first_uses import FIRST_USES
     from surefoot.compile_notice import counted
+    from surefoot.kernels.cache import used
     from surefoot.kernels.folder import unwritten
     from surefoot.preparing import Preparing
 
@@ -26,6 +28,8 @@ def main() -> None:
             FIRST_USES[asked.get()]()
             if unwritten():
                 os._exit(1)
+            for name in used():
+                print(f"used {name}", file=told)
             print("done", file=told)
 
 

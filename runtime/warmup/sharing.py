@@ -12,18 +12,19 @@ from threading import Thread
 import numba
 
 from surefoot.compile_notice import counted
+from surefoot.kernels.cache import used
 from surefoot.kernels.folder import cache_folder
 
 __all__ = ["run_shared"]
 
 
-def run_shared(uses: Mapping[str, Callable[[], None]], told: Callable[[int, str], object]) -> None:
+def run_shared(uses: Mapping[str, Callable[[], None]], told: Callable[[int, str], object]) -> set[str]:
     """Run ``uses`` in as many processes as there are cores, and in this one those that fail there.
     ``told(count, what)`` is called in this thread with the number of kernels compiled so far, and for
-    what.
+    what. Returns the names of the files of all kernels that they used.
     """
     waiting = deque(uses)
-    count = 0
+    count, files = 0, set[str]()
     if _can_share():
         news: SimpleQueue[tuple[str, str]] = SimpleQueue()
         helpers = [_Helper(waiting, news) for _ in range(min(_cores(), len(uses)))]
@@ -36,6 +37,8 @@ def run_shared(uses: Mapping[str, Callable[[], None]], told: Callable[[int, str]
                 if kind == "compiled":
                     count += 1
                     told(count, what)
+                elif kind == "used":
+                    files.add(what)
                 elif kind == "failed":
                     failed.append(what)
         finally:
@@ -47,6 +50,7 @@ def run_shared(uses: Mapping[str, Callable[[], None]], told: Callable[[int, str]
         told(count, what)
         with counted(lambda more, before=count, what=what: told(before + more, what)):
             uses[what]()
+    return files | used()
 
 
 def _can_share() -> bool:
@@ -61,7 +65,7 @@ def _cores() -> int:
 
 class _Helper(Thread):
     """A process that runs uses from ``waiting`` until none is left, and the thread that reports its ``news``:
-    ("compiled" or "failed", use), finally ("end", "")."""
+    ("compiled" or "failed", use), ("used", file), finally ("end", "")."""
 
     def __init__(self, waiting: deque[str], news: SimpleQueue[tuple[str, str]]) -> None:
         super().__init__(daemon=True)
@@ -97,5 +101,6 @@ class _Helper(Thread):
         for line in self.process.stdout:
             if line == "done\n":
                 return True
-            self._news.put(("compiled", what))
+            kind, _, name = line.strip().partition(" ")
+            self._news.put((kind, name or what))
         return False

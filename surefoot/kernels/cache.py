@@ -22,18 +22,24 @@ from surefoot.kernels.dependencies import digest_of_code, digest_of_type
 from surefoot.kernels.folder import cache_folder, note_use, write_whole
 from surefoot.kernels.turns import Turns
 
-__all__ = ["KernelCache"]
+__all__ = ["KernelCache", "used"]
 
 _FORMAT = 1
 """Version of the cache files; a new number recompiles everything."""
 _SUFFIX = ".kernel"
 _turns = Turns()
+_used: set[str] = set()
 
 
 @cache
 def _versions() -> str:
     tag = f"{_FORMAT} {sys.implementation.cache_tag} {platform.system()}"
     return f"{tag} {numba.__version__} {llvmlite.__version__}"
+
+
+def used() -> set[str]:
+    """Names of the files that this process has loaded or written."""
+    return set(_used)
 
 
 class KernelCache:
@@ -76,6 +82,7 @@ class KernelCache:
                 not each.can_cache for each in compiled.lifted
             ):
                 write_whole(file, dumps(signature) + dumps(linking.reduce(compiled)))
+                _used.add(file.name)
         finally:
             _turns.give_back(file)
 
@@ -124,6 +131,7 @@ class KernelCache:
         except Exception:  # another version, cut off, or a kernel that it calls is missing
             return None
         note_use(file)
+        _used.add(file.name)
         return compiled
 
 

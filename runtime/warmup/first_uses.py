@@ -311,22 +311,23 @@ def _show_a_character() -> None:
 
 FIRST_USES: dict[str, Callable[[], None]] = {
     "navigation": _navigate,
-    "area costs": _find_by_costs,
-    "updates": _change_a_little,
-    "open worlds": _walk_through_an_open_world,
     "walking and getting up": _fall_and_get_up,
-    "learned walk": _walk_as_learned,
-    "braking": _brake,
-    "skills": _clear,
     "smoothing": _smooth,
+    "characters": _show_a_character,
+    "skills": _clear,
+    "braking": _brake,
+    "area costs": _find_by_costs,
     "animals": _animals,
     "crowds": _crowds,
+    "updates": _change_a_little,
+    "open worlds": _walk_through_an_open_world,
+    "playtests": _playtest,
+    "learned walk": _walk_as_learned,
     "running and jumping": _run_and_jump,
+    "recorded motion": _play_recorded,
+    "pictures": _draw,
     "odds": _ask_for_odds,
     "bodies": one_of_each,
-    "playtests": _playtest,
-    "recorded motion": _play_recorded,
-    "characters": _show_a_character,
-    "pictures": _draw,
 }
-"""Label and function of each use; those that depend least on others come first, longest first."""
+"""Label and function of each use, the longest first. None before "area costs" needs what the one before it
+does: processes that compile the same wait for each other."""

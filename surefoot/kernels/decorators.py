@@ -10,8 +10,11 @@ from numba.core.dispatcher import Dispatcher
 from numba.core.sigutils import normalize_signature
 
 from surefoot.kernels.cache import KernelCache
+from surefoot.kernels.compiling_faster import compile_faster
 
 __all__ = ["allocating_kernel", "cfunc", "kernel"]
+
+compile_faster()
 
 
 def kernel(function: Callable | None = None, **options: Any) -> Any:
@@ -32,6 +35,8 @@ def allocating_kernel(function: Callable | None = None, **options: Any) -> Any:
 
 
 def _kernel(function: Callable | None, options: dict[str, Any]) -> Any:
+    options["no_cfunc_wrapper"] = True  # nobody takes the address of a kernel
+
     def decorate(function: Callable) -> Any:
         made = numba.njit(**options)(function)
         if isinstance(made, Dispatcher):  # if NUMBA_DISABLE_JIT is set

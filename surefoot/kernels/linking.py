@@ -13,16 +13,15 @@ from functools import cache
 from typing import Any
 
 import llvmlite.binding as llvm
-import numba
 from numba.core.compiler import CompileResult
 from numba.core.dispatcher import Dispatcher
+
+from surefoot.kernels.compiling_faster import is_tried
 
 __all__ = ["Missing", "keep_apart", "rebuild", "reduce"]
 
 _LARGE = 300
 """Instructions from which a function stays separate."""
-_TRIED = ((0, 68),)
-"""Versions of Numba whose internals this was tested with; with others, kernels are copied as usual."""
 
 
 class Missing(Exception):
@@ -45,8 +44,8 @@ class Need:
 
 @cache
 def _is_possible() -> bool:
-    version = tuple(int(part) for part in numba.__version__.split(".")[:2])
-    return sys.platform.startswith("linux") and version in _TRIED
+    """With other versions of Numba, kernels are copied as usual."""
+    return sys.platform.startswith("linux") and is_tried()
 
 
 def keep_apart(compiled: CompileResult, kernel: Dispatcher, signature: Any) -> None:

@@ -227,6 +227,7 @@ class Human(Person):
         if not self.on_feet.walks and not running:
             self.put(here, self.yaw, 0.0)
         stands = self.status not in MOVING and self.on_feet.walks
+        self.data.qpos[:] = self.pose()  # it sets off from how it has been seen to stand
         self.follower.begin(table, self.ticks, self.on_feet.slowing > 0.0)
         self.follower.starts = self.ticks + round(hesitates / CONTROL_DT) if stands else 0
         self.run_up.begin(obstacles)

@@ -14,9 +14,11 @@ from numpy.typing import NDArray
 from locomotion.body.person import CONTROL_DT, PersonIndex
 from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.kernel import Parts, decide_tick, feel, new_memory
-from locomotion.gaits.policy.level_ground import floor_at, is_level
+from locomotion.gaits.policy.level_ground import floor_at, is_level, is_level_around
 from locomotion.gaits.policy.skill import PolicySkill
-from locomotion.gaits.run.layout import COM_VELOCITY
+from locomotion.gaits.policy.stand import stand_still
+from locomotion.gaits.run.controller import observe
+from locomotion.gaits.run.layout import COM_VELOCITY, FEET, PLANTED
 from locomotion.gaits.walk.controller import observe_walk
 from locomotion.gaits.walk.layout import (
     CLOCK,
@@ -38,16 +40,19 @@ from locomotion.paths import table as path
 from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
 from locomotion.paths.follower import PathFollower
 
-__all__ = ["ACTIVE", "MEMORY_SIZE", "SLOWEST", "TICKS", "LearnedWalk"]
+__all__ = ["ACTIVE", "MEMORY_SIZE", "MOST_TURN", "SLOWEST", "TICKS", "LearnedWalk", "memory_of"]
 
-SLOWEST = 0.4
+SLOWEST = 0.3
 """[m/s] that it walks at least; who is asked for less than half of it comes to rest."""
 _SEES, _LEAVES = 2.6, 1.6
 # [m] of level ground ahead with which it takes over, and without which it gives back
 _BEHIND = 0.5  # [m] behind it that have to be level, too: a foot is still there
 _AT_LEAST, _ASKEW = 0.5, 0.25  # [m/s] and [rad] off its way with which it takes over
+_DROPS = 2.0  # [m/s] downwards with which the ground has gone
 _ROOM = 0.8  # [m] more to where a run begins
-_MOST_TURN, _STEADY_TURN = 0.8, 0.6  # [rad/s] that it turns at most, and in bends that it takes over in
+MOST_TURN = 1.2
+"""[rad/s] that it turns at most."""
+_SIDEWAYS = 1.2  # [m/s^2] in a bend at most
 _EAGERNESS = 2.0  # [1/s] of turning towards the heading asked for
 _FACES = 0.1  # [rad] off that heading up to which a person at rest does not turn
 
@@ -55,6 +60,20 @@ ACTIVE, TICKS = at.STATE_SIZE + at.FELT_SIZE, at.STATE_SIZE + at.FELT_SIZE + 1
 MEMORY_SIZE = TICKS + 1
 """The memory of a `LearnedWalk`: the policy's memory, what it feels, whether it moves the person, and for how
 many ticks."""
+
+
+def memory_of(walk: NDArray[np.float64], qvel: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The policy's memory, (STATE_SIZE,), with which it takes over from a planned ``walk`` that has just put
+    a foot down, or stands."""
+    heading = float(walk[WALK_HEADING])
+    memory = new_memory(heading)
+    if walk[PHASE] != STANDING:
+        memory[at.RUNNING] = 1.0
+        memory[at.PHASE] = 0.0 if walk[WALK_STANCE] < 0.0 else 0.5
+        speed = math.cos(heading) * qvel[0] + math.sin(heading) * qvel[1]
+        memory[[at.SPEED, at.TOLD]] = max(speed, SLOWEST)
+        memory[at.TURN_RATE] = min(max(walk[WALK_TURN_RATE], -MOST_TURN), MOST_TURN)
+    return memory
 
 
 class LearnedWalk:
@@ -76,6 +95,10 @@ class LearnedWalk:
         """Something else moves the person now."""
         self.memory[ACTIVE] = 0.0
 
+    def drops(self, data: mujoco.MjData) -> bool:
+        """Whether the ground has gone from under the person that it moves: it has not learned to land."""
+        return self.active and bool(data.qvel[2] < -_DROPS)
+
     @property
     def speed(self) -> float:
         """[m/s] of its reference."""
@@ -94,6 +117,8 @@ class LearnedWalk:
         way, active, arc = follower.path, self.active, follower.arc
         if way is None:
             return False
+        if not moving and walk[PHASE] == STANDING:
+            return bool(is_level_around(body.lookup, *body.position.tolist()))
         far = _LEAVES if active else _SEES
         if not active and walk[PHASE] != STANDING:
             if not moving or command[SPEED_ASKED] < SLOWEST or follower.remaining < far:
@@ -104,25 +129,27 @@ class LearnedWalk:
         rows = way.table
         first = round(arc / way.length * (len(rows) - 1))
         ahead = rows[first : first + round((far + _ROOM) / path.SPACING)]
-        turn = np.abs(ahead[:, path.CURVATURE]) * np.maximum(ahead[:, path.SPEED], SLOWEST)
-        if turn.max() > (_MOST_TURN if active else _STEADY_TURN):
-            return False
         if moving and (ahead[:, path.GAIT] == path.RUN).any():
             return False
         begin, z = max(arc - _BEHIND, 0.0), float(body.position[2])
         return bool(is_level(body.lookup, rows, way.length, begin, arc + far, z))
 
+    def stand(self, body: Simulation, position: NDArray[np.float64], yaw: float) -> None:
+        """Let a person that has been put down as planned stand as learned instead, on the ground point
+        ``position`` (3,), if the ground there is level."""
+        if not is_level_around(body.lookup, *position.tolist()):
+            return
+        parts = self._feet(body.index, body.data)
+        stand_still(body.model, body.data, parts, self.skill.motion, position, yaw, self._felt)
+        observe(body.index, body.model, body.data, body.control, fresh=True)
+        body.control[PLANTED] = body.control[FEET]
+        self._state[:] = new_memory(yaw)
+        self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
+
     def take_over(self, body: Simulation, walk: NDArray) -> None:
         """Move a person from now on that walks as planned and has just put a foot down, or stands."""
         data = body.data
-        self._state[:] = new_memory(walk[WALK_HEADING])
-        if walk[PHASE] != STANDING:
-            self._state[at.RUNNING] = 1.0
-            self._state[at.PHASE] = 0.0 if walk[WALK_STANCE] < 0.0 else 0.5
-            heading = walk[WALK_HEADING]
-            speed = math.cos(heading) * data.qvel[0] + math.sin(heading) * data.qvel[1]
-            self._state[[at.SPEED, at.TOLD]] = max(speed, SLOWEST)
-            self._state[at.TURN_RATE] = min(max(walk[WALK_TURN_RATE], -_MOST_TURN), _MOST_TURN)
+        self._state[:] = memory_of(walk, data.qvel)
         self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
         feel(self._feet(body.index, data), data, self._felt)
 
@@ -167,7 +194,8 @@ class LearnedWalk:
         speed = max(speed, SLOWEST) if speed > 0.5 * SLOWEST else 0.0
         aside = math.atan2(command[SIDEWAYS_ASKED], speed) if speed > 0.0 else 0.0
         off = wrap(command[HEADING_ASKED] + aside - self._state[at.HEADING])
-        turn = min(max(_EAGERNESS * off, -_MOST_TURN), _MOST_TURN)
+        most = min(MOST_TURN, _SIDEWAYS / max(speed, self.speed, SLOWEST))
+        turn = min(max(_EAGERNESS * off, -most), most)
         if speed == 0.0 and abs(off) < _FACES:
             turn = 0.0
         self._asked[at.ASKED_SPEED], self._asked[at.ASKED_TURN] = speed, turn

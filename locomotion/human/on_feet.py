@@ -13,6 +13,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -53,9 +54,10 @@ from locomotion.gaits.walk.layout import (
 )
 from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, WalkSkill
 from locomotion.gaits.walk.steps import TURN_TIME
+from locomotion.human.gaze import look_ahead
 from locomotion.human.intent import TURN_FIRST
 from locomotion.human.landing import Landing
-from locomotion.human.learned_walk import LearnedWalk
+from locomotion.human.learned_walk import MOST_TURN, LearnedWalk
 from locomotion.human.residual import Residual
 from locomotion.human.simulation import Simulation
 from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
@@ -72,6 +74,7 @@ _FAST, _FAST_HASTE = 3.7, 0.8  # [m/s] from the first speed on, only this much a
 _CHANGED = 4.0  # steps after which a change of gait is complete
 _HELD_UP = 12.0  # steps after which a pushed person that has braked need not come to rest
 _NOTHING = np.zeros(0)
+_UPRIGHT = 0.8  # [m] of the centre of mass over the lower foot of one that stands
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 
 
@@ -124,6 +127,8 @@ class OnFeet:
         self._quick_run, self._slow_run, self._braking_run = made.quick_run, made.slow_run, made.braking_run
         self._first_steps, self._braking_steps = made.first_steps, made.braking_steps
         self.limits, self.walk_limits = made.limits, made.walk_limits
+        if policy is not None:
+            self.walk_limits = replace(made.walk_limits, tight=(made.walk_limits.tight[0], MOST_TURN))
         self.walk = new_walk()
         self.learned = None if policy is None else LearnedWalk(policy)
         self.residual = Residual(residual)
@@ -176,9 +181,18 @@ class OnFeet:
         self.walk[LONGER] = longer
 
     def at_rest(self, state: NDArray[np.float64]) -> bool:
-        """Whether it stands still."""
+        """Whether it stands still, and does not have to stand up straight yet."""
+        return self._stands_still(state) and (
+            self.learned is None or self.learned.active or self._upright(state)
+        )
+
+    def _stands_still(self, state: NDArray[np.float64]) -> bool:
         stands = self.walks and self.walk[PHASE] == STANDING and self.walk[CLOCK] == 0.0
         return bool(stands and np.abs(state[controller.COM_VELOCITY]).max() < _STILL)
+
+    def _upright(self, state: NDArray[np.float64]) -> bool:
+        """Whether it is as high as it stands: behind a stop it crouches."""
+        return float(state[controller.COM][2] - state[controller.FEET][2::3].min()) > _UPRIGHT
 
     def stir(self, state: NDArray[np.float64]) -> None:
         """End its rest."""
@@ -247,10 +261,13 @@ class OnFeet:
         learned, walk = self.learned, self.walk
         if learned is None or not self.walks or walk[PHASE] == SINGLE or walk[CLOCK] > 0.0:
             return
-        usual = learned.active or walk[WALK_STEPS] >= _CHANGED or walk[PHASE] == STANDING
-        usual = usual and not self.brakes and not self.residual.acts and not self.landing.acts
+        usual = learned.active or walk[WALK_STEPS] >= _CHANGED
+        usual = usual or (walk[PHASE] == STANDING and self._upright(body.control))
+        fades = self.residual.acts and walk[PHASE] != STANDING  # what is left in a stand is no more needed
+        usual = usual and not self.brakes and not fades and not self.landing.acts
         suits = usual and learned.suits(follower, moving, body, command, walk)
         if suits and not learned.active:
+            self.residual.forget()
             learned.take_over(body, walk)
         elif learned.active and not suits:
             learned.give_back(body, walk, self.walk_skill.speed)
@@ -261,6 +278,7 @@ class OnFeet:
         """Control: write the PD targets into ``data.ctrl``."""
         if self.learned is not None and self.walks_as_learned:
             self.learned.tick(lookup, command, data, self.walk)
+            look_ahead(float(self.walk[WALK_HEADING]), command, data)
             self.speed = self.learned.speed
         elif self.walks:
             tables = self._walk_tables()
@@ -287,13 +305,15 @@ class OnFeet:
         """After the physics and `controller.observe`."""
         if self.hurries and (self.walks or is_fast_enough(state, float(command[SPEED_ASKED]))):
             self.hurries = False
+        if self.learned is not None and self.learned.drops(data):
+            state[controller.FALLEN] = 1.0
         if self.learned is not None and self.walks_as_learned:
             self.learned.observe(index, data)
         elif self.walks:
             observe_walk(index, data, self.walk)
             if self.brakes and self.walk[PHASE] == STANDING:
                 self.walk[CAUGHT] = 0.0
-                self.brakes = not self.at_rest(state)
+                self.brakes = not self._stands_still(state)
             self.brakes &= bool(self.walk[WALK_STEPS] < _HELD_UP)
 
     # --- from one gait to the other

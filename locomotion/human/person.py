@@ -18,6 +18,7 @@ from locomotion.gaits.walk.layout import WALKS, new_walk
 from locomotion.gaits.walk.skill import plant
 from locomotion.ground.ground import Ground
 from locomotion.human import state as person_state
+from locomotion.human.idle import idle_pose
 from locomotion.human.on_feet import OnFeet
 from locomotion.human.simulation import Simulation
 from locomotion.human.state import MOVING, Gait, HumanState, Status
@@ -45,7 +46,8 @@ class Person:
       run_up: the obstacles on the path and how it clears them. fours: how it goes on hands and feet.
       command: heading and speeds for the controllers, (4,).
       status, events: see `locomotion.human.human.Human`. ticks: since the person was made. ended_at: the tick
-        in which it fell or stopped.
+        in which it fell or stopped. habit: 0 to 1, what makes it an individual at rest (`idle.idle_pose`); it
+        does not change.
     """
 
     def __init__(self, ground: Ground | None, on_feet: OnFeet, clearing: Sequence[ClearingSkill]) -> None:
@@ -57,6 +59,7 @@ class Person:
         self.events: list[Event] = []
         self.ticks = self.ended_at = 0
         self.status: Status = "standing"
+        self.habit = 0.0
         self.put(np.zeros(3) if ground is None else 0.5 * (ground.low + ground.high), 0.0, 0.0)
 
     def put(self, position: NDArray[np.float64], yaw: float, speed: float) -> None:
@@ -77,6 +80,8 @@ class Person:
             walk[WALKS] = 0.0
         else:
             plant(body.model, body.data, body.index, body.lookup, body.control, walk, position, yaw)
+            if self.on_feet.learned is not None:
+                self.on_feet.learned.stand(body, position, yaw)
         self.command[:] = yaw, speed, 0.0, 0.0
         self.on_feet.slowing, self.on_feet.brakes, self.on_feet.speed = 0.0, False, speed
         self.follower.memory[:] = new_track()
@@ -137,6 +142,13 @@ class Person:
     def qpos(self) -> NDArray[np.float64]:
         """(46,) float64: root position [m], quaternion (w, x, y, z), angles [rad] of `person.JOINT_NAMES`."""
         return self.data.qpos.copy()
+
+    def pose(self) -> NDArray[np.float64]:
+        """(46,) `qpos` as it is seen: who stands as learned breathes and looks about."""
+        pose = self.qpos
+        if self.on_feet.walks_as_learned and self.status not in MOVING:
+            pose[7:] = idle_pose(pose[7:], (self.ticks - self.ended_at) * CONTROL_DT, self.habit)
+        return pose
 
     @property
     def velocity(self) -> NDArray[np.float64]:

@@ -210,6 +210,7 @@ def check_person(state: HumanState, human: Human) -> None:
         raise LocomotionError(f"a person is {state.status} along no path")
     for what in (state.ticks, state.ended_at):
         check_number("a tick of a person", what, 0, 2**53)
+    check_number("the habit of a person", state.habit, 0.0, 1.0)
     spent, begins = state.foresight
     check_number("what a person has rehearsed", spent, 0, _MOST_REHEARSED)
     check_number("the tick from which a person rehearses", begins, 0, 2**53)

@@ -68,6 +68,7 @@ class HumanState(NamedTuple):
     status: Status
     ticks: int
     ended_at: int
+    habit: float
     events: tuple[Event, ...]
     foresight: tuple[int, int] = (0, 0)
 
@@ -116,6 +117,7 @@ _FIELDS = (
     _Field("status", "", "status"),
     _Field("ticks", "", "ticks"),
     _Field("ended_at", "", "ended_at"),
+    _Field("habit", "", "habit"),
 )
 _VALUES = operator.attrgetter(
     *(f"{field.part}.{field.attribute}" if field.part else field.attribute for field in _FIELDS)

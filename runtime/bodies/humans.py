@@ -123,11 +123,16 @@ class People(Population):
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
         driver = self._make()
         driver.human.reset(place, facing)
-        millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
-        chance = np.random.default_rng((self._seed, *millimetres))
+        chance = self._chance(place)
         driver.hesitates = round(float(chance.uniform(0.0, _HESITATES)), 2)
+        driver.human.habit = float(chance.random())
         self._drivers.append(driver)
         return driver
+
+    def _chance(self, place: np.ndarray) -> np.random.Generator:
+        """What makes one who appears at ``place`` (3,) an individual is drawn from it."""
+        millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
+        return np.random.default_rng((self._seed, *millimetres))
 
     def revive(self, body: str, state: Any) -> Driver:
         driver = self._make()
@@ -161,6 +166,7 @@ class People(Population):
                 return None
             driver = self._make()
             set_in_motion(driver.human, moment, pose[:2], float(place[2]), heading)
+        driver.human.habit = float(self._chance(place).random())
         driver.fade(pose, pose_rates)
         self._drivers.append(driver)
         return driver
@@ -217,7 +223,7 @@ class People(Population):
 
     def remember(self) -> None:
         for driver in self._drivers:
-            driver.before = driver.human.qpos
+            driver.before = driver.human.pose()
 
     def change_level(self) -> None:
         self._spare, self._unused = [], None
@@ -398,7 +404,7 @@ class HumanDriver(Driver):
 
     def drawn(self) -> tuple[np.ndarray, np.ndarray]:
         """The pose (46,) in which it is drawn, and how fast that changes (45,), as `fading.rates`."""
-        qvel, pose = self.human.data.qvel, self.human.qpos
+        qvel, pose = self.human.data.qvel, self.human.pose()
         turning = np.zeros(3)
         mujoco.mju_rotVecQuat(turning, qvel[3:6], pose[3:7])
         now = np.concatenate([qvel[:3], turning, qvel[6:45]])
@@ -429,12 +435,10 @@ class HumanDriver(Driver):
         return person_joints()
 
     def joint_pose(self) -> np.ndarray:
-        return self._faded(self.human.qpos, 0.0)
+        return self._faded(self.human.pose(), 0.0)
 
     def transforms(self) -> np.ndarray:
-        if self._fading is not None:
-            return self._transforms_of(self._faded(self.human.qpos, 0.0))
-        return self.human.body_transforms()[1 : 1 + len(self.figure.bodies)]
+        return self._transforms_of(self.joint_pose())
 
     def _transforms_of(self, pose: np.ndarray) -> np.ndarray:
         joints = self.human.data.qpos
@@ -447,7 +451,7 @@ class HumanDriver(Driver):
     def transforms_between(self, share: float) -> np.ndarray:
         if self.before is None:
             return self.transforms()
-        model, now = self.human.model, self.human.qpos
+        model, now = self.human.model, self.human.pose()
         pose, change = self.before.copy(), np.empty(model.nv)
         mujoco.mj_differentiatePos(model, change, 1.0, self.before, now)
         mujoco.mj_integratePos(model, pose, change, share)

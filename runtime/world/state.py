@@ -87,7 +87,7 @@ class _StateHeader(Header):
 
 STATE_FILE = Schema(
     kind="surefoot world state",
-    version=11,
+    version=12,
     header=_StateHeader,
     arrays={dtype: Flags(dtype) if dtype == "bool" else Array(dtype, (dtype,)) for dtype in DTYPES},
     remedy="save the world again",

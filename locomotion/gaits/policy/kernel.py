@@ -39,8 +39,9 @@ from locomotion.gaits.policy.law import (
     LAG_SHARE,
     LIFT_OFF,
     MOST_ASKEW,
+    MOST_BEHIND,
     MOST_MISS,
-    MOST_TRIM,
+    MOST_TWIST,
     PENDULUM,
     REACH,
     REST_TRIM,
@@ -50,6 +51,7 @@ from locomotion.gaits.policy.law import (
     SHIFTING,
     SOLE_AHEAD,
     SOLE_ASIDE,
+    TRIM_IN_USE,
     TRIM_RATE,
     TURNING,
 )
@@ -92,6 +94,12 @@ def new_memory(yaw: float) -> NDArray[np.float64]:
 @kernel
 def _wrap(angle):
     return (angle + math.pi) % (2.0 * math.pi) - math.pi
+
+
+@kernel
+def _yaw(qpos):
+    w, x, y, z = qpos[3], qpos[4], qpos[5], qpos[6]
+    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 
 @kernel
@@ -164,16 +172,20 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
         elif not running:
             after -= SHIFTING
     memory[at.PHASE] = after - math.floor(after)
-    memory[at.HEADING] = _wrap(memory[at.HEADING] + at.POLICY_DT * memory[at.TURN_RATE])
+    yaw = _yaw(qpos)
+    off = _wrap(yaw - memory[at.HEADING] - at.POLICY_DT * memory[at.TURN_RATE])
+    memory[at.HEADING] = _wrap(yaw - min(max(off, -MOST_TWIST), MOST_TWIST))
     c, s = math.cos(memory[at.HEADING]), math.sin(memory[at.HEADING])
     ahead, left = c * qvel[0] + s * qvel[1], c * qvel[1] - s * qvel[0]
     wanted = 0.0 if memory[at.RESTED] < 0.0 else asked[at.ASKED_SPEED] - memory[at.TOLD]
+    if memory[at.LAG_AHEAD] + memory[at.TRIM] < -MOST_BEHIND:
+        wanted = min(wanted, 0.0)
     memory[at.TOLD] += min(max(wanted, -BRAKING * at.POLICY_DT), ACCELERATION * at.POLICY_DT)
     slow = min(max(1.0 - memory[at.TOLD] / REST_TRIM_ENDS, 0.0), 1.0) * memory[at.RUNNING]
     slow = slow if to_stand else 0.0
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
     trim = memory[at.TRIM] + pull * at.POLICY_DT * (memory[at.TOLD] - ahead)
-    most = MOST_TRIM * max(memory[at.TOLD], 0.0) + slow * REST_TRIM
+    most = TRIM_IN_USE * max(memory[at.TOLD], 0.0) + slow * REST_TRIM
     memory[at.TRIM] = min(max(trim, -most), most)
     memory[at.SPEED] = memory[at.TOLD] + memory[at.TRIM]
     turn = 0.0 if rests else asked[at.ASKED_TURN]
@@ -197,8 +209,7 @@ def _observe(memory, felt, qpos, qvel, out):
     out[_VELOCITY + 2] = qvel[2]
     for k in range(3):
         out[_SPIN + k] = qvel[3 + k]
-    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-    out[at.YAW_SEEN] = _wrap(yaw - memory[at.HEADING])
+    out[at.YAW_SEEN] = _wrap(_yaw(qpos) - memory[at.HEADING])
     out[_LAGS], out[_LAGS + 1] = memory[at.LAG_AHEAD], memory[at.LAG_LEFT]
     for k in range(_N):
         out[_ANGLES + k] = qpos[7 + _COLUMNS[k]]

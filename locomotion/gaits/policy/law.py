@@ -64,20 +64,25 @@ from locomotion.gaits.policy.motion import Motion
 
 __all__ = [
     "ACCELERATION", "AT_REST", "BEARING", "BEARS", "BOTH_BEAR", "BRAKING", "CALM", "FACING", "FEET_OFF",
-    "FIRST_STEPS", "LAG_SHARE", "LIFT_OFF", "MOST_ASKEW", "MOST_MISS", "MOST_TRIM", "PENDULUM", "REACH",
-    "REST_TRIM", "REST_TRIM_ENDS", "REST_TRIM_RATE", "SETTLING", "SHIFTING", "SOLE_AHEAD", "SOLE_ASIDE",
-    "TRIM_RATE", "TURNING", "Seen", "advance", "along", "decide", "mirrored", "observe", "pace_share", "rate",
-    "standing_miss", "targets", "turned_feet", "turned_in", "up_and_yaw", "wrap",
+    "FIRST_STEPS", "LAG_SHARE", "LIFT_OFF", "MOST_ASKEW", "MOST_BEHIND", "MOST_MISS", "MOST_TRIM",
+    "MOST_TWIST", "PENDULUM", "REACH", "REST_TRIM", "REST_TRIM_ENDS", "REST_TRIM_RATE", "SETTLING",
+    "SHIFTING", "SOLE_AHEAD", "SOLE_ASIDE", "TRIM_IN_USE", "TRIM_RATE", "TURNING", "Seen", "advance",
+    "along", "decide", "mirrored", "observe", "pace_share", "rate", "standing_miss", "targets",
+    "turned_feet", "turned_in", "up_and_yaw", "wrap",
 ]  # fmt: skip
 
 ACCELERATION, BRAKING, TURNING = 1.0, 0.8, 2.0
 """[m/s^2] up and down, and [rad/s^2], at which speed and turn rate follow those asked for."""
-TRIM_RATE, MOST_TRIM = 0.5, 0.15
+TRIM_RATE, MOST_TRIM, TRIM_IN_USE = 0.5, 0.15, 0.4
 """Part of the error of the speed that is added to it, per second, and the share of the speed that is added at
-most."""
+most: for who learns to keep it, and in use."""
 REST_TRIM, REST_TRIM_RATE, REST_TRIM_ENDS = 0.35, 1.5, 0.4
 """[m/s] that is added at most for who is to stand, lest it creeps away as it steps in place; its rate; and
 [m/s] from which on nothing of that is."""
+MOST_TWIST, MOST_BEHIND = 0.45, 0.4
+"""[rad] that the heading is off the body's at most: it waits for a body that does not turn as told, and gives
+in to one that is thrown round. [m/s] low-passed, that the body may be too slow before it is told to be
+faster."""
 AT_REST = 0.05
 """[m/s] asked for, below which a person comes to rest."""
 FACING = 0.05
@@ -262,18 +267,20 @@ def advance(
     seen: Seen,
     halts: bool = True,
     steadies: bool = True,
+    waits: bool = True,
 ) -> None:
     """Go on by `POLICY_DT`. ``asked`` (n, 2): speed [m/s] and turn rate [rad/s]; ``seen``: the bodies after
     it; ``halts``: whether the cycle stops for those who come to rest; ``steadies``: whether they are helped
-    not to creep away in place, which the policy is to learn by itself."""
+    not to creep away in place and to keep their speed, most of which the policy is to learn by itself;
+    ``waits``: whether nobody is told to be faster while the body is too slow."""
     pace = rate(memory, motion.period(memory[:, SPEED]))
     before, running = memory[:, PHASE], memory[:, RUNNING] > 0.0
     after = before + POLICY_DT * pace
     to_stand = (asked[:, ASKED_SPEED] < AT_REST) & (np.abs(asked[:, ASKED_TURN]) < FACING)
     rests = (memory[:, TOLD] < AT_REST) & to_stand
     can, must = _stands(memory, motion, seen)
-    waits = np.minimum(memory[:, RESTED] + POLICY_DT, 0.0)
-    rested = np.where(rests & (running | ~must), memory[:, RESTED] + POLICY_DT, waits)
+    sets_off = np.minimum(memory[:, RESTED] + POLICY_DT, 0.0)
+    rested = np.where(rests & (running | ~must), memory[:, RESTED] + POLICY_DT, sets_off)
     memory[:, RESTED] = np.where(~running & ~rests & ~must, -FIRST_STEPS, rested)
     begun = 0.5 * np.floor(2.0 * after)
     both = (after - begun > BOTH_BEAR) & (after - begun <= LIFT_OFF)
@@ -286,15 +293,19 @@ def advance(
     memory[:, LAG_AHEAD] += np.where(stops, memory[:, SPEED], 0.0)
     memory[:, RUNNING] = np.where(stops, 0.0, np.where(rests & ~steps, memory[:, RUNNING], 1.0))
     memory[:, PHASE] = after - np.floor(after)
-    memory[:, HEADING] = wrap(memory[:, HEADING] + POLICY_DT * memory[:, TURN_RATE])
+    heading, yaw = memory[:, HEADING] + POLICY_DT * memory[:, TURN_RATE], up_and_yaw(seen.qpos)[1]
+    memory[:, HEADING] = wrap(yaw - np.clip(wrap(yaw - heading), -MOST_TWIST, MOST_TWIST))
     v = along(memory[:, HEADING], seen.qvel[:, :3])
     wanted = np.where(memory[:, RESTED] < 0.0, 0.0, asked[:, ASKED_SPEED] - memory[:, TOLD])
+    lag = memory[:, LAG_AHEAD] + memory[:, TRIM] * steadies
+    behind = waits & (lag < -MOST_BEHIND)
+    wanted = np.where(behind, np.minimum(wanted, 0.0), wanted)
     memory[:, TOLD] += np.clip(wanted, -BRAKING * POLICY_DT, ACCELERATION * POLICY_DT)
     slow = np.clip(1.0 - memory[:, TOLD] / REST_TRIM_ENDS, 0.0, 1.0) * memory[:, RUNNING]
     slow *= to_stand & steadies
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
     trim = memory[:, TRIM] + pull * POLICY_DT * (memory[:, TOLD] - v[:, 0])
-    most = MOST_TRIM * np.maximum(memory[:, TOLD], 0.0)
+    most = (TRIM_IN_USE if steadies else MOST_TRIM) * np.maximum(memory[:, TOLD], 0.0)
     memory[:, TRIM] = np.clip(trim, -most - slow * REST_TRIM, most + slow * REST_TRIM)
     memory[:, SPEED] = memory[:, TOLD] + memory[:, TRIM]
     most = TURNING * POLICY_DT

@@ -6,13 +6,14 @@ from locomotion.gaits.walk.footholds import ground_at
 from locomotion.paths.table import HEADING, X, Y
 from surefoot.kernels import kernel
 
-__all__ = ["floor_at", "is_level"]
+__all__ = ["floor_at", "is_level", "is_level_around"]
 
 _STEEPEST = 0.05  # rise over run
 _UNEVEN = 0.015  # [m] by which the ground may be off its slope within `_APART`
 _APART = 0.1  # [m] between the places looked at, along the path
 _ASIDE = 0.22  # [m] from the middle of the path to its sides, where feet are put and turned
 _NEAR = 0.6  # [m] from where the height is known to the first places looked at
+_AROUND, _SIDES = 0.8, 12  # [m] of a place where a person stands, and directions in which it is looked at
 _REACH = 0.5  # [m] above and below the last height in which the ground is looked for
 
 
@@ -42,4 +43,16 @@ def is_level(ground, table, length, begin, end, z):
             if not abs(height - before) <= most or math.hypot(nx, ny) > _STEEPEST * nz:
                 return False
             before = height
+    return True
+
+
+@kernel
+def is_level_around(ground, x, y, z):
+    """Whether the ground is level where a person stands, around (x, y, z) [m]."""
+    for k in range(_SIDES):
+        angle = 2.0 * math.pi * k / _SIDES
+        px, py = x + _AROUND * math.cos(angle), y + _AROUND * math.sin(angle)
+        height, nx, ny, nz = ground_at(ground, px, py, z + _REACH)
+        if not abs(height - z) <= _STEEPEST * _AROUND + _UNEVEN or math.hypot(nx, ny) > _STEEPEST * nz:
+            return False
     return True

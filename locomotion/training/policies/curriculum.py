@@ -21,6 +21,8 @@ class Stage:
       stands: whether standing is learned, and not the walk. It is over for who has to make a step.
       from_starts: share of those who begin in one of the given states, if there are any.
       changes: whether orders change, every 3 s on average.
+      waits: whether nobody is told to be faster while the body is too slow, as in use. Who learns with it to
+        walk safely learns to be slow, too, and has to learn without it to keep up.
       noise: standard deviation of what is tried, at the stage's beginning and at its end.
       timestep: of the physics [s].
       longest: decisions after which everybody begins anew.
@@ -37,6 +39,7 @@ class Stage:
     stands: bool = False
     from_starts: float = 0.0
     changes: bool = False
+    waits: bool = True
     noise: tuple[float, float] = (0.2, 0.2)
     timestep: float = 0.005
     longest: int = 400
@@ -56,24 +59,28 @@ WALKING = (
         noise=(0.14, 0.12), timestep=_COARSE, longest=500,
     ),
     Stage(
-        "all orders", 2_800_000, (0.3, 2.2), turn=1.0, push=250.0, slope=0.04, stand=0.3, changes=True,
-        noise=(0.12, 0.09), timestep=_COARSE, longest=500,
+        "all orders", 3_000_000, (0.3, 2.2), turn=1.3, push=250.0, slope=0.04, stand=0.3, from_starts=0.3,
+        changes=True, noise=(0.12, 0.09), timestep=_COARSE, longest=500,
     ),
     Stage(
-        "careful", 4_000_000, (0.3, 2.2), turn=1.0, push=300.0, slope=0.05, stand=0.3, changes=True,
-        noise=(0.09, 0.045), longest=500, weights=_CAREFUL,
+        "careful", 6_000_000, (0.3, 2.2), turn=1.3, push=300.0, slope=0.05, stand=0.3, from_starts=0.3,
+        changes=True, noise=(0.09, 0.045), longest=500, weights=_CAREFUL,
+    ),
+    Stage(
+        "keeping up", 4_000_000, (0.3, 2.2), turn=1.3, push=300.0, slope=0.05, stand=0.3, from_starts=0.3,
+        changes=True, waits=False, noise=(0.06, 0.045), longest=500, weights=_CAREFUL,
     ),
 )  # fmt: skip
 """Walking at 0 to 2.2 m/s: 0 is to step in place, and to turn on the spot."""
 
 STANDING = (
     Stage(
-        "stand", 350_000, (0.0, 0.0), push=200.0, slope=0.04, stand=1.0, stands=True, from_starts=0.7,
+        "stand", 500_000, (0.0, 0.0), push=200.0, slope=0.04, stand=1.0, stands=True, from_starts=0.7,
         noise=(0.1, 0.06), timestep=_COARSE, longest=250, weights={"slip": -1.0},
     ),
     Stage(
-        "stand, pushed", 200_000, (0.0, 0.0), push=300.0, slope=0.04, stand=1.0, stands=True, from_starts=0.7,
-        noise=(0.06, 0.04), longest=400, weights={"slip": -1.0, "change": -0.3},
+        "stand, pushed", 500_000, (0.0, 0.0), push=300.0, slope=0.04, stand=1.0, stands=True, from_starts=0.7,
+        noise=(0.06, 0.04), longest=1000, weights={"slip": -1.0, "change": -0.3},
     ),
 )  # fmt: skip
 """Standing after the walk came to rest."""

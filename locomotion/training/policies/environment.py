@@ -45,8 +45,10 @@ _GRAVITY = 9.81
 _EVERY = 3.0  # [s] between pushes, and between orders, on average
 _PUSHED = 5  # decisions that a push lasts: 0.1 s
 _WEAKEST = 0.2  # of the greatest push
-_LOWEST, _LEAST_UP, _MOST_YAW, _MOST_SWAY = 0.70, 0.75, 0.9, 1.5  # beyond which a person counts as fallen
+_LOWEST, _LEAST_UP, _MOST_SWAY = 0.70, 0.75, 1.5  # beyond which a person counts as fallen
+_SETTLED = 25  # decisions after which a pose has to be like the reference's: some begin in another
 _ANGLE, _SPEED, _RATE = 0.03, 0.08, 0.1  # spread of the starts: [rad], [m/s], [rad/s]
+_SIDEWAYS = 1.2  # [m/s^2] in a bend at most: as much as people are asked for
 _TURNING, _BEGIN_TURNING = 0.6, 0.7  # shares of the orders that turn
 _CAUGHT, _CAUGHT_SPEEDS = 0.5, (0.25, 0.9)
 # share of those who begin in a stand, and stay, whom a push has thrown off it, and how fast they are [m/s]
@@ -167,6 +169,8 @@ class Environment:
         rng, stage = self.rng, self.stage
         speeds = np.where(rng.random(count) < stand, 0.0, rng.uniform(*stage.speeds, count))
         turns = rng.uniform(-stage.turn, stage.turn, count) * (rng.random(count) < turning)
+        most = _SIDEWAYS / np.maximum(speeds, _SIDEWAYS / max(stage.turn, 1e-6))
+        turns = np.clip(turns, -most, most)
         return np.stack([speeds, turns], axis=1)
 
     def reset(self, who: NDArray[np.bool_]) -> None:
@@ -278,14 +282,15 @@ class Environment:
         """The memories go on; gives for whom the other network would take over, (n,), and with which
         memories. While it learns to walk, who could stand steps in place instead."""
         before = self.memory.copy()
-        law.advance(self.memory, self.motion, self.asked, self.seen(), steadies=self.steadies)
+        how = {"steadies": self.steadies, "waits": self.stage.waits}
+        law.advance(self.memory, self.motion, self.asked, self.seen(), **how)
         changes = self.memory[:, RUNNING] != before[:, RUNNING]
         switched = self.memory.copy()
         if not self.stage.stands and changes.any():
             self.memory[changes] = before[changes]
             some = self.memory[changes]
             seen = _pick(self.seen(), changes)
-            law.advance(some, self.motion, self.asked[changes], seen, halts=False, steadies=self.steadies)
+            law.advance(some, self.motion, self.asked[changes], seen, halts=False, **how)
             self.memory[changes] = some
         return changes, switched
 
@@ -339,10 +344,10 @@ class Environment:
         )
 
     def _fallen(self, moment: Moment) -> NDArray[np.bool_]:
-        up, yaw = law.up_and_yaw(self.qpos)
-        off = np.abs(law.wrap(yaw - self.memory[:, HEADING]))
+        up, _ = law.up_and_yaw(self.qpos)
         low = (self.qpos[:, 2] < _LOWEST) | (up[:, 2] < _LEAST_UP)
-        return low | (off > _MOST_YAW) | (sway_off(moment.angles) > _MOST_SWAY)
+        swayed = (sway_off(moment.angles) > _MOST_SWAY) & (self.age > _SETTLED)
+        return low | swayed
 
     # ---- saved and restored
 

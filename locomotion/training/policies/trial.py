@@ -7,14 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.models import person_on
-from locomotion.body.person import CONTROL_DT, JOINT_NAMES, STEPS_PER_TICK
+from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
 from locomotion.gaits.policy.kernel import Parts, decide_tick, feel, new_memory
-from locomotion.gaits.policy.layout import FELT_SIZE, JOINTS, SOLES, TICKS_PER_DECISION
+from locomotion.gaits.policy.layout import FELT_SIZE, TICKS_PER_DECISION
 from locomotion.gaits.policy.skill import PolicySkill
+from locomotion.gaits.policy.stand import stand_still
 
 __all__ = ["PolicyTrial"]
 
-_LEAN = 0.035  # [rad] of the pelvis in the reference's stand
 _FALLEN = 0.6  # [m] height of the root
 _PUSH_TIME = 0.1  # [s]
 
@@ -35,15 +35,7 @@ class PolicyTrial:
         self.memory, self.felt, self.asked = new_memory(0.0), np.zeros(FELT_SIZE), np.zeros(2)
         self._waist = self.model.body("waist").id
         self._push_ends = 0
-        data = self.data
-        for name, angle in zip(JOINTS, skill.motion.stand, strict=True):
-            data.qpos[7 + JOINT_NAMES.index(name)] = angle
-        data.qpos[3:7] = [np.cos(0.5 * _LEAN), 0.0, np.sin(0.5 * _LEAN), 0.0]
-        mujoco.mj_forward(self.model, data)
-        feel(self.parts, data, self.felt)
-        data.qpos[2] -= self.felt[SOLES].reshape(6, 3)[:, 2].min() - 0.001
-        mujoco.mj_forward(self.model, data)
-        feel(self.parts, data, self.felt)
+        stand_still(self.model, self.data, self.parts, skill.motion, np.zeros(3), 0.0, self.felt)
 
     @property
     def fallen(self) -> bool:

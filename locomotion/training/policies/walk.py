@@ -16,6 +16,7 @@ from locomotion.training.policies.curriculum import STANDING, WALKING, Stage
 from locomotion.training.policies.environment import Environment, Starts, motion_of, where_it_ended
 from locomotion.training.policies.learning import Learning, tells
 from locomotion.training.policies.reference import make_reference
+from locomotion.training.policies.takeovers import takeovers
 from locomotion.training.policies.trial import PolicyTrial
 from locomotion.training.search.checkpoint import claim
 from locomotion.training.training import NotLearnedError, Training
@@ -27,6 +28,7 @@ _TESTED = (0.8, 1.25, 1.8)
 """Speeds [m/s] that a policy must walk at to be of use."""
 _STANDS, _WALKS = 6.0, 12.0  # [s]
 _PEOPLE = 256  # who learn at once
+_TAKEOVERS = 6000  # states of planned walks from which some begin
 
 
 def network_of(agent: Agent) -> Network:
@@ -50,7 +52,7 @@ def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POL
         people = partial(Environment, reference, stages[0], _PEOPLE, starts=starts)
         return Learning(people, stages, seed, checkpoint, tells(training.on_progress)).run()
 
-    walker = learn("walk", walking, 2 * training.seed)
+    walker = learn("walk", walking, 2 * training.seed, takeovers(_TAKEOVERS, training.seed))
     stops = replace(walking[-1], stand=0.8, push=100.0)
     environment = Environment(reference, stops, _PEOPLE, training.seed, steadies=True)
     ends = where_it_ended(environment, lambda seen: walker.decide(walker.scaled(seen)))

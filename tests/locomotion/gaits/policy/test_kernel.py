@@ -238,9 +238,38 @@ def test_who_is_told_to_turn_on_the_spot_steps_and_then_stands_again(skill):
         assert memory[0, at.RUNNING] == 1.0
         for _ in range(round(seconds / at.POLICY_DT)):
             law.advance(memory, skill.motion, asked, seen)
+            face(seen, memory[0, at.HEADING])
             seen.soles[:] = law.along(-memory[:, at.HEADING], soles)  # its feet turn with it
     assert memory[0, at.RUNNING] == 0.0
     assert memory[0, at.HEADING] == pytest.approx(0.8 * 2.0, abs=0.1)
+
+
+def test_the_heading_waits_for_a_body_that_does_not_turn_and_follows_one_that_is_thrown_round(skill):
+    memory, seen = new_memory(0.0)[None], standing(skill, memory=None)
+    for _ in range(100):
+        law.advance(memory, skill.motion, np.array([[0.0, 0.8]]), seen)
+    assert memory[0, at.HEADING] == pytest.approx(law.MOST_TWIST)
+    face(seen, -2.0)
+    law.advance(memory, skill.motion, np.array([[0.0, 0.8]]), seen)
+    assert memory[0, at.HEADING] == pytest.approx(-2.0 + law.MOST_TWIST)
+
+
+def test_a_body_that_is_too_slow_is_not_told_to_be_faster(skill):
+    told = []
+    for slower in (0.1, 1.5):
+        memory = new_memory(0.0)[None]
+        memory[:, at.RUNNING] = 1.0
+        for _ in range(100):
+            seen = standing(skill, memory, speed=memory[0, at.SPEED] - slower)
+            law.advance(memory, skill.motion, np.array([[1.5, 0.0]]), seen)
+        told.append(memory[0, at.TOLD])
+    assert told[0] == pytest.approx(1.5)
+    assert told[1] < 0.2
+
+
+def face(seen, yaw):
+    """Turn a body to ``yaw`` [rad]."""
+    seen.qpos[0, [3, 6]] = np.cos(0.5 * yaw), np.sin(0.5 * yaw)
 
 
 def test_who_sets_off_steps_in_place_first(skill):
@@ -270,12 +299,14 @@ def test_a_bearing_foot_stays_where_it_is_while_the_body_turns(skill):
     assert np.abs(right.mean()) < 0.01
 
 
-def test_it_is_asked_for_more_where_it_is_too_slow(skill):
+@pytest.mark.parametrize(("steadies", "most"), [(True, law.TRIM_IN_USE), (False, law.MOST_TRIM)])
+def test_it_is_asked_for_more_where_it_is_too_slow(skill, steadies, most):
     memory = new_memory(0.0)[None]
     memory[:, [at.TOLD, at.SPEED, at.RUNNING]] = 1.0
-    for _ in range(400):
-        law.advance(memory, skill.motion, np.array([[1.0, 0.0]]), standing(skill, memory, speed=0.9))
-    assert memory[0, at.SPEED] == pytest.approx(1.0 + law.MOST_TRIM)
+    for _ in range(500):
+        seen = standing(skill, memory, speed=0.9)
+        law.advance(memory, skill.motion, np.array([[1.0, 0.0]]), seen, steadies=steadies)
+    assert memory[0, at.SPEED] == pytest.approx(1.0 + most)
 
 
 @pytest.mark.parametrize("steadies", [True, False])

@@ -1,4 +1,4 @@
-"""Where a person who walks or stands as learned looks: the head turns first, then the body."""
+"""A person on the learned walk turns its head first, then its body."""
 
 import mujoco
 from numpy.typing import NDArray

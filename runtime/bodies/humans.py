@@ -52,7 +52,7 @@ from surefoot.numeric import is_finite
 from surefoot.pausing import pause
 from surefoot.workers.threads import Threads
 
-__all__ = ["HumanDriver", "People"]
+__all__ = ["HumanDriver", "People", "chance_at"]
 
 _ASKEW = 0.4  # [rad] that a body which physics takes over may face off its way
 _SPOTS, _BESIDE = np.array([-0.4, 0.0, 0.4, 0.8, 1.2]), 0.15  # [m] along its way and beside it,
@@ -96,6 +96,12 @@ class Fading:
     tick: int
 
 
+def chance_at(place: np.ndarray, seed: int) -> np.random.Generator:
+    """What is by chance in somebody who appears at ``place`` (3,) [m] in a world of this ``seed``."""
+    millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
+    return np.random.default_rng((seed, *millimetres))
+
+
 class People(Population):
     """Simulated persons. ``skills``: descriptions of those of one's own that they have besides the
     package's; ``rehearsals``: as of `Human`; ``seed`` decides how long each of them hesitates; ``walk``: one
@@ -123,16 +129,11 @@ class People(Population):
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
         driver = self._make()
         driver.human.reset(place, facing)
-        chance = self._chance(place)
+        chance = chance_at(place, self._seed)
         driver.hesitates = round(float(chance.uniform(0.0, _HESITATES)), 2)
         driver.human.habit = float(chance.random())
         self._drivers.append(driver)
         return driver
-
-    def _chance(self, place: np.ndarray) -> np.random.Generator:
-        """What makes one who appears at ``place`` (3,) an individual is drawn from it."""
-        millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
-        return np.random.default_rng((self._seed, *millimetres))
 
     def revive(self, body: str, state: Any) -> Driver:
         driver = self._make()
@@ -166,7 +167,7 @@ class People(Population):
                 return None
             driver = self._make()
             set_in_motion(driver.human, moment, pose[:2], float(place[2]), heading)
-        driver.human.habit = float(self._chance(place).random())
+        driver.human.habit = float(chance_at(place, self._seed).random())
         driver.fade(pose, pose_rates)
         self._drivers.append(driver)
         return driver

@@ -21,7 +21,7 @@ from locomotion.recorded_people.person_state import PersonState
 from locomotion.recorded_people.saved_state_check import check_recorded
 from navmesh.routes.route import Route
 from runtime.bodies.figure import Figure, Joints
-from runtime.bodies.humans import HumanDriver
+from runtime.bodies.humans import HumanDriver, chance_at
 from runtime.bodies.joints import person_joints
 from runtime.bodies.protocol import Driver, Population, recall, saved_parts
 from runtime.bodies.walkers import WalkerDriver
@@ -59,18 +59,13 @@ class Recorded(Population):
         return self._people
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> "RecordedDriver":
-        return RecordedDriver(self, self.people.add(place, facing, 0, self._chance(place)))
-
-    def _chance(self, place: np.ndarray) -> np.random.Generator:
-        """What is by chance in somebody who appears at ``place`` (3,) [m]."""
-        millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
-        return np.random.default_rng((self._seed, *millimetres))
+        return RecordedDriver(self, self.people.add(place, facing, 0, chance_at(place, self._seed)))
 
     def take_over(self, driver: HumanDriver, level: str) -> "RecordedDriver":
         """Let recorded motion go on from where a simulated person is, at a ``level`` of detail."""
         human, index = driver.human, level_number(level)
         place, velocity = human.position, human.velocity[:2]
-        person = self.people.add(place, human.yaw, index, self._chance(place))
+        person = self.people.add(place, human.yaw, index, chance_at(place, self._seed))
         person.set_traits(by_hand(person.row[at.TRAITS], **driver.style))
         pose, pose_rates = driver.drawn()
         person.go_on_from(pose, pose_rates, place, velocity)

@@ -75,14 +75,14 @@ ACCELERATION, BRAKING, TURNING = 1.0, 0.8, 2.0
 """[m/s^2] up and down, and [rad/s^2], at which speed and turn rate follow those asked for."""
 TRIM_RATE, MOST_TRIM, TRIM_IN_USE = 0.5, 0.15, 0.4
 """Part of the error of the speed that is added to it, per second, and the share of the speed that is added at
-most: for who learns to keep it, and in use."""
+most, first while the policy is learned, then in worlds."""
 REST_TRIM, REST_TRIM_RATE, REST_TRIM_ENDS = 0.35, 1.5, 0.4
 """[m/s] that is added at most for who is to stand, lest it creeps away as it steps in place; its rate; and
 [m/s] from which on nothing of that is."""
 MOST_TWIST, MOST_BEHIND = 0.45, 0.4
-"""[rad] that the heading is off the body's at most: it waits for a body that does not turn as told, and gives
-in to one that is thrown round. [m/s] low-passed, that the body may be too slow before it is told to be
-faster."""
+"""[rad] that the heading is off the body's at most: it waits for a body that does not turn as told, and
+follows one that is thrown round. [m/s] that the body, low-passed, may be too slow; beyond that the speed
+told does not rise."""
 AT_REST = 0.05
 """[m/s] asked for, below which a person comes to rest."""
 FACING = 0.05
@@ -272,7 +272,7 @@ def advance(
     """Go on by `POLICY_DT`. ``asked`` (n, 2): speed [m/s] and turn rate [rad/s]; ``seen``: the bodies after
     it; ``halts``: whether the cycle stops for those who come to rest; ``steadies``: whether they are helped
     not to creep away in place and to keep their speed, most of which the policy is to learn by itself;
-    ``waits``: whether nobody is told to be faster while the body is too slow."""
+    ``waits``: whether the speed told waits for a body that is too slow."""
     pace = rate(memory, motion.period(memory[:, SPEED]))
     before, running = memory[:, PHASE], memory[:, RUNNING] > 0.0
     after = before + POLICY_DT * pace

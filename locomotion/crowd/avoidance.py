@@ -9,6 +9,7 @@ from math import sqrt
 
 from navmesh.surface.clearance_field import centre_of, gap_at
 from navmesh.surface.recall import nearest_of
+from navmesh.surface.storeys import linked
 from surefoot.kernels import kernel
 
 __all__ = ["MOST_WALLS", "body_plane", "wall_planes"]
@@ -95,7 +96,7 @@ def wall_planes(net, planes, k, x, y, radius, speed):
     for way in range(4):
         c = k
         for _ in range(away):
-            other = net.link[c, way]
+            other = linked(net, c, way)
             if other < 0:
                 break
             c = other

@@ -13,6 +13,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 from navmesh.surface.clearance_field import centre_of
+from navmesh.surface.storeys import linked
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel
 
@@ -59,7 +60,7 @@ def _paint(net, throats, part, of_cell, by, pairs):
                 pairs[count, 0], pairs[count, 1] = of_cell[c], part[t]
                 count += 1
             for way in range(4):
-                other = net.link[c, way]
+                other = linked(net, c, way)
                 if other < 0 or seen[other] == t:
                     continue
                 px, py = centre_of(net, other)
@@ -74,8 +75,9 @@ def _throats(surface: Surface, nearest: NDArray[np.float64], limit: float) -> ND
     toward = nearest / np.maximum(surface.clearance, 1e-9)[:, None]
     narrow = surface.clearance < limit
     found = np.zeros(len(surface), dtype=bool)
+    link = surface.link
     for way in range(2):
-        other = surface.link[:, way]
+        other = link[:, way]
         between = (other >= 0) & narrow & narrow[other]
         between &= np.sum(toward * toward[other], axis=1) < _OPPOSITE
         found |= between
@@ -89,8 +91,8 @@ def _joined(surface: Surface, throats: NDArray[np.int64]) -> coo_array:
     at[throats] = np.arange(len(throats))
     source, target = [], []
     for way in range(4):
-        one = surface.link[throats, way]
-        corner = np.where(one >= 0, surface.link[one, (way + 1) % 4], -1)
+        one = surface.links(throats)[:, way]
+        corner = np.where(one >= 0, surface.links(one)[:, (way + 1) % 4], -1)
         for other in (one, corner):
             hit = (other >= 0) & (at[other] >= 0)
             source.append(np.flatnonzero(hit))
@@ -104,7 +106,7 @@ def _half_widths(surface: Surface, throats: NDArray[np.int64]) -> NDArray[np.flo
     """(t,) [m]: clearance of each throat or of the one across from it, whichever is nearer the middle."""
     clearance = np.zeros(len(surface) + 1)
     clearance[throats] = surface.clearance[throats]
-    return np.maximum(clearance[throats], clearance[surface.link[throats]].max(axis=1))
+    return np.maximum(clearance[throats], clearance[surface.links(throats)].max(axis=1))
 
 
 def find_gates(surface: Surface, net: object, limit: float) -> Gates:

@@ -6,6 +6,7 @@ import numpy as np
 
 from navmesh.areas.areas import PARTS
 from navmesh.surface.clearance_field import same_place, slope_at
+from navmesh.surface.storeys import linked
 from surefoot.kernels import kernel
 
 __all__ = ["area_at", "price"]
@@ -26,13 +27,13 @@ def area_at(net, areas, k, x, y):
     jx, jy = int(x // h), int(y // h)
     other = np.int64(k)
     if jx != ix:
-        other = np.int64(net.link[other, 0 if jx > ix else 2])
+        other = linked(net, other, 0 if jx > ix else 2)
     if jy != iy and other >= 0:
-        other = np.int64(net.link[other, 1 if jy > iy else 3])
+        other = linked(net, other, 1 if jy > iy else 3)
     if other < 0 and jx != ix and jy != iy:
-        other = np.int64(net.link[k, 1 if jy > iy else 3])
+        other = linked(net, k, 1 if jy > iy else 3)
         if other >= 0:
-            other = np.int64(net.link[other, 0 if jx > ix else 2])
+            other = linked(net, other, 0 if jx > ix else 2)
     if other < 0:
         return -1
     row = areas.row[other]
@@ -119,10 +120,10 @@ def price(net, areas, part, weight, k, ax, ay, bx, by, target, most):
         if next_x < next_y:
             next_x += step_x
             ix += turn_x
-            k = np.int64(net.link[k, way_x])
+            k = linked(net, k, way_x)
         else:
             next_y += step_y
             iy += turn_y
-            k = np.int64(net.link[k, way_y])
+            k = linked(net, k, way_y)
         if k < 0:
             return np.inf

@@ -4,9 +4,8 @@ import numpy as np
 
 from navmesh.graph.edges import border_pairs, measure_edges, rows_of_edges
 from navmesh.graph.node_changes import Nodes, RenewedNodes, boxes_of, hull
-from navmesh.surface.renewal import moved_cells
+from navmesh.surface.renewal import cells_in, moved_cells
 from navmesh.surface.surface import Surface
-from navmesh.surface.windows import links_in
 from surefoot.kernels import allocating_kernel
 
 __all__ = ["Edges", "renew_edges"]
@@ -51,8 +50,8 @@ def _pairs_in(
     window: np.ndarray, surface: Surface, label: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The `border_pairs` in the columns of ``window``, by the cells' numbers in the whole."""
-    link, where = links_in(surface.column_start, surface.link, window, surface.shape[1])
-    key, pair, clearance = border_pairs(label[where], link, surface.clearance[where])
+    field, where = cells_in(surface, tuple(window.tolist()))
+    key, pair, clearance = border_pairs(label[where], field)
     return key, where[pair], clearance
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from navmesh.surface.clearance_field import centre_of
 from navmesh.surface.ridges import half_width, widest_through
+from navmesh.surface.storeys import linked
 from navmesh.threads import in_threads, shares
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -20,13 +21,13 @@ _FINE = 0.002
 
 
 @allocating_kernel
-def border_pairs(label, link, clearance):
+def border_pairs(label, field):
     """The pairs of linked cells with different labels: for each a key, the lesser label in the upper half
     (k,) int64, the cells (k, 2) int32, that of the lesser label first, and the lesser clearance (k,)."""
     borders = 0
     for c in range(label.shape[0]):
         for d in range(2):
-            n = link[c, d]
+            n = linked(field, c, d)
             if n >= 0 and label[n] != label[c] and label[n] >= 0 and label[c] >= 0:
                 borders += 1
     key = np.empty(borders, np.int64)
@@ -35,14 +36,14 @@ def border_pairs(label, link, clearance):
     k = 0
     for c in range(label.shape[0]):
         for d in range(2):
-            n = link[c, d]
+            n = linked(field, c, d)
             if n < 0 or label[n] == label[c] or label[n] < 0 or label[c] < 0:
                 continue
             first, second = (c, n) if label[c] < label[n] else (n, c)
             key[k] = (np.int64(label[first]) << 32) | label[second]
             pair[k, 0] = first
             pair[k, 1] = second
-            width[k] = min(clearance[c], clearance[n])
+            width[k] = min(field.clearance[c], field.clearance[n])
             k += 1
     return key, pair, width
 
@@ -162,5 +163,5 @@ def join_nodes(
     that passes is max((Rᵢ + Rⱼ - d)/2, the clearance of the best pair of linked cells on the labels'
     border); where the sides of a passage face each other, the clearance in its middle instead of the cells'.
     """
-    key, pair, width = border_pairs(label, field.link, field.clearance)
+    key, pair, width = border_pairs(label, field)
     return rows_of_edges(len(place), *measure_edges(key, pair, width, field, place, threads))

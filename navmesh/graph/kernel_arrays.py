@@ -37,7 +37,7 @@ NET = BundleType(
     floor_height=float64[::1],
     floor_slope=int32[::1],
     slopes=float64[:, ::1],
-    link=int32[:, ::1],
+    storey=uint8[:, ::1],
     clearance=float64[::1],
     choice=uint8[::1],
     nearest=float64[:, ::1],
@@ -53,7 +53,7 @@ NET = BundleType(
 """The surface and the graph.
 
 cell: side of a grid square [m]; nx, ny: columns. The arrays of `Surface` themselves: column_start
-(nx*ny + 1,) and, for each cell, cell_column, link (4), clearance, choice, source; blocker_start (n + 1,),
+(nx*ny + 1,) and, for each cell, cell_column, storey (4), clearance, choice, source; blocker_start (n + 1,),
 blocker (k, 4). nearest (n, 2) is there if zones change it, else (0, 2), see
 `navmesh.surface.recall.nearest_of`. Height and slope of a cell are found by floor_shift, floor_height,
 floor_slope and slopes, see `navmesh.surface.floor_store.height_of`. Of `NodeGraph`: label of each cell;
@@ -184,7 +184,7 @@ def _net(graph: "NodeGraph") -> Any:
         floor_height=surface.floor.height,
         floor_slope=surface.floor.slope,
         slopes=surface.floor.slopes,
-        link=surface.link,
+        storey=surface.storey,
         clearance=surface.clearance,
         choice=surface.choice,
         nearest=surface.kept_nearest,

@@ -101,7 +101,7 @@ def _choose_in(area: np.ndarray, old: Nodes, before: Surface, surface: Surface, 
         surface, tuple(hull(area, boxes_of(old.place[given], side), _SEEN, surface).tolist())
     )
     order = order_by_clearance(field.clearance, grain_of(surface))
-    order = order[inside_of(field.cell_column[order], window, surface.shape[1])]
+    order = order[inside_of(surface.cell_column[where[order]], window, surface.shape[1])]
     given_maker = moved_cells(old.maker[given], before, surface, window)
     at = _places_among(where[order], given_maker, surface.clearance, grain_of(surface))
     order = np.insert(order, at, -1 - np.arange(len(given), dtype=np.int32))

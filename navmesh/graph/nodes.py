@@ -4,6 +4,7 @@ import numpy as np
 
 from navmesh.surface.clearance_field import centre_of
 from navmesh.surface.ridges import half_width, middle_beside
+from navmesh.surface.storeys import over
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -44,40 +45,42 @@ def order_by_clearance(clearance, grain):
 
 
 @kernel
-def _claim_line(clearance, link, label, power, node, radius, c, d, dx, dy, resolution):
+def _claim_line(field, label, power, node, radius, c, column, d, dx, dy):
     """Claim c and the cells from it in y direction d (1 or 3) for a disc, as long as they lie in the disc.
 
-    (dx, dy) goes from the disc's centre to c. A cell that is wider than the disc itself is left alone: its
-    node must let pass whatever the cell lets pass.
+    (dx, dy) goes from the disc's centre to c, which is in ``column``. A cell that is wider than the disc
+    itself is left alone: its node must let pass whatever the cell lets pass.
     """
-    step = resolution if d == 1 else -resolution
+    step, beside = (field.cell, 1) if d == 1 else (-field.cell, -1)
     while c >= 0:
         score = dx * dx + dy * dy - radius * radius
         if score > 1e-12:
             return
-        if score < power[c] and clearance[c] <= radius:
+        if score < power[c] and field.clearance[c] <= radius:
             power[c] = score
             label[c] = node
-        c = link[c, d]
+        c = over(field, c, column, d)
+        column += beside
         dy += step
 
 
 @kernel
-def _claim(field, label, power, node, k, x, y, radius):
-    """Claim what lies in a disc about (x, y), in cell ``k``, and is reached over links: along x, then along
-    y."""
-    clearance, link, resolution = field.clearance, field.link, field.cell
-    cx, cy = centre_of(field, k)
+def _claim(field, label, power, node, k, off_x, off_y, radius):
+    """Claim what lies in a disc and is reached over links from cell ``k``, whose centre is (off_x, off_y)
+    from its own: along x, then along y."""
+    resolution = field.cell
     for d in range(0, 3, 2):
-        step = resolution if d == 0 else -resolution
-        spine = k if d == 0 else link[k, 2]
-        dx = cx - x if d == 0 else cx - x - resolution
+        step, beside = (resolution, field.ny) if d == 0 else (-resolution, -field.ny)
+        column = np.int64(field.cell_column[k])
+        spine, dx = np.int64(k), off_x
+        if d == 2:
+            spine, column, dx = over(field, k, column, 2), column + beside, off_x - resolution
         while spine >= 0 and dx * dx <= radius * radius:
-            _claim_line(clearance, link, label, power, node, radius, spine, 1, dx, cy - y, resolution)
-            below = link[spine, 3]
-            dy = cy - y - resolution
-            _claim_line(clearance, link, label, power, node, radius, below, 3, dx, dy, resolution)
-            spine = link[spine, d]
+            _claim_line(field, label, power, node, radius, spine, column, 1, dx, off_y)
+            below = over(field, spine, column, 3)
+            _claim_line(field, label, power, node, radius, below, column - 1, 3, dx, off_y - resolution)
+            spine = over(field, spine, column, d)
+            column += beside
             dx += step
 
 
@@ -123,7 +126,8 @@ def select_nodes(order, field, whole, where, least, given_cell, given_place):
                 continue
         node_cell[nodes], maker[nodes] = k, c
         place[nodes, 0], place[nodes, 1], place[nodes, 2] = x, y, r
-        _claim(field, label, power, nodes, np.searchsorted(where, k) if part else k, x, y, r)
+        cx, cy = centre_of(whole, k)
+        _claim(field, label, power, nodes, np.searchsorted(where, k) if part else k, cx - x, cy - y, r)
         if c >= 0:
             label[c] = nodes  # also where the disc is too small to hold the cell's centre
         nodes += 1

@@ -9,6 +9,7 @@ import numpy as np
 
 from navmesh.surface.build import Cells, Grid, surface_of
 from navmesh.surface.floor_store import pack_floors
+from navmesh.surface.storeys import APART, MOST
 from navmesh.surface.surface import Surface
 from surefoot.files.schema import Array, Numbers
 from surefoot.kernels import kernel
@@ -32,15 +33,13 @@ _SLACK = 1e-6  # [m] by which clearances may reach beyond the grid
 
 def pack_surface(surface: Surface) -> dict[str, np.ndarray]:
     """The arrays of `PACKED_SURFACE`."""
-    storey = np.zeros((len(surface), 2), np.int32)
-    _storeys(surface.column_start, surface.cell_column, surface.link, storey)
     height, gradient = surface.floor.unpacked(surface.column_start)
     return {
         "origin": surface.origin,
         "count": np.diff(surface.column_start),
         "height": height,
         "gradient": gradient,
-        "storey": storey,
+        "storey": (surface.storey[:, :2] + np.uint8(1)).astype(np.int32),  # APART becomes 0
         "blocker_count": np.diff(surface.blocker_start),
         "blocker": surface.blocker,
     }
@@ -62,12 +61,14 @@ def unpack_surface(arrays: dict[str, np.ndarray], resolution: float, shape: tupl
     if int(lists.sum(dtype=np.int64)) != blockers:
         raise ValueError(f"surface_blocker_count is not of {blockers} blockers")
     column = np.repeat(np.arange(nx * ny, dtype=np.int32), count)
-    start, link = _starts(count), np.full((cells, 4), -1, np.int32)
-    odd = _links(start, column, arrays["storey"], link, ny)
+    if len(count) and count.max() > MOST:
+        raise ValueError(f"surface_count[{int(np.argmax(count))}] is more than {MOST}")
+    start, storey = _starts(count), np.full((cells, 4), APART, np.uint8)
+    odd = _link(start, column, arrays["storey"], storey, ny)
     if odd >= 0:
         raise ValueError(f"surface_storey[{odd}] leads to no cell beside it, or to one that another leads to")
     floor = pack_floors(start, arrays["height"], arrays["gradient"])
-    found = Cells(start, column, link, _starts(lists), arrays["blocker"], floor)
+    found = Cells(start, column, storey, _starts(lists), arrays["blocker"], floor)
     surface = surface_of(found, Grid(arrays["origin"], resolution, shape))
     ix = column // np.int32(ny)
     iy = column - ix * np.int32(ny)
@@ -85,16 +86,8 @@ def _starts(count: np.ndarray) -> np.ndarray:
 
 
 @kernel
-def _storeys(column_start, cell_column, link, storey):
-    for c in range(link.shape[0]):
-        for d in range(2):
-            n = link[c, d]
-            storey[c, d] = n - column_start[cell_column[n]] + 1 if n >= 0 else 0
-
-
-@kernel
-def _links(column_start, cell_column, storey, link, ny):
-    """Fill in ``link`` (n, 4), which is -1. Returns -1, or the first cell whose storeys are wrong."""
+def _link(column_start, cell_column, storey, both, ny):
+    """Fill in ``both`` (n, 4), which is `APART`. Returns -1, or the first cell whose storeys are wrong."""
     for c in range(storey.shape[0]):
         column = cell_column[c]
         for d in range(2):
@@ -104,7 +97,7 @@ def _links(column_start, cell_column, storey, link, ny):
             if other >= column_start.shape[0] - 1 or (d == 1 and other % ny == 0):
                 return c
             n = column_start[other] + storey[c, d] - 1
-            if n >= column_start[other + 1] or link[n, d + 2] >= 0:
+            if n >= column_start[other + 1] or both[n, d + 2] != APART:
                 return c
-            link[c, d], link[n, d + 2] = n, c
+            both[c, d], both[n, d + 2] = storey[c, d] - 1, c - column_start[column]
     return -1

@@ -10,6 +10,7 @@ from math import sqrt
 import numpy as np
 
 from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, same_place, walk
+from navmesh.surface.storeys import linked
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["CANDIDATES", "candidate", "node_at", "place_in", "roomy_cell", "snap", "squared_distance"]
@@ -51,7 +52,7 @@ def roomy_cell(net, k, x, y, radius, reach):
             least = off
             best = at
         for way in range(4):
-            other = net.link[at, way]
+            other = linked(net, at, way)
             if other < 0:
                 continue
             jx = net.cell_column[other] // net.ny - ix0
@@ -72,11 +73,11 @@ def node_at(net, k, x, y, radius):
     best = -1
     least = 1e300
     for way in range(4):
-        beside = net.link[k, way]
+        beside = linked(net, k, way)
         if beside < 0:
             continue
         for turn in range(3):  # the cell beside, and those beside that one to the left and to the right
-            other = beside if turn == 0 else net.link[beside, (way + 2 * turn - 1) % 4]
+            other = beside if turn == 0 else linked(net, beside, (way + 2 * turn - 1) % 4)
             if other < 0 or net.clearance[other] < radius or net.label[other] < 0:
                 continue
             cx, cy = centre_of(net, other)
@@ -108,9 +109,9 @@ def candidate(net, k, radius, i):
     if node >= 0 and net.clearance[k] >= radius:
         return -1
     way, turn = (i - 1) // 3, (i - 1) % 3
-    other = net.link[k, way]
+    other = linked(net, k, way)
     if other >= 0 and turn > 0:
-        other = net.link[other, (way + 2 * turn - 1) % 4]
+        other = linked(net, other, (way + 2 * turn - 1) % 4)
     return net.label[other] if other >= 0 and net.clearance[other] >= radius else -1
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from navmesh.level.mesh_queries import crossed, lowest_above, surface_below
 from navmesh.level.raster import FLOOR, KIND
 from navmesh.surface.floor_store import gradient_of, height_of
+from navmesh.surface.storeys import linked
 from navmesh.surface.surface import Surface
 from surefoot.kernels import kernel
 
@@ -35,7 +36,7 @@ class CellArrays(NamedTuple):
     floor_height: np.ndarray
     floor_slope: np.ndarray
     slopes: np.ndarray
-    link: np.ndarray
+    storey: np.ndarray
     size: float
     """[m], side of a cell."""
     nx: int
@@ -47,7 +48,7 @@ def cells_of(surface: Surface) -> CellArrays:
     floor = surface.floor
     return CellArrays(
         surface.column_start, surface.cell_column, floor.shift(surface.column_start), floor.height,
-        floor.slope, floor.slopes, surface.link, surface.resolution, *surface.shape,
+        floor.slope, floor.slopes, surface.storey, surface.resolution, *surface.shape,
     )  # fmt: skip
 
 
@@ -112,7 +113,7 @@ def march(cells, cell, x, y, dx, dy, limit):
             next_y += step_y
         if gone >= limit:
             return limit, cell
-        following = cells.link[cell, direction]
+        following = linked(cells, cell, direction)
         if following < 0:
             return gone, cell
         cell = following

@@ -7,6 +7,7 @@ from navmesh.routes.heap import push, take_first
 from navmesh.routes.leading_round import lead_round, push_off
 from navmesh.routes.walked_line import append_corner
 from navmesh.surface.clearance_field import centre_of, gap_at, walk
+from navmesh.surface.storeys import linked
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["DETOURS", "over_cells", "search_cells"]
@@ -51,7 +52,7 @@ def search_cells(net, scratch, start, goal, radius):
             found = True
             break
         for way in range(4):
-            other = net.link[k, way]
+            other = linked(net, k, way)
             if other < 0:
                 continue
             if other == goal or net.clearance[other] >= radius:

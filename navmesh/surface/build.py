@@ -18,6 +18,7 @@ from navmesh.level.terrain import Terrain
 from navmesh.rules import WalkRules
 from navmesh.surface import blockers, clearance, floors, walls
 from navmesh.surface.floor_store import FloorStore, pack_floors
+from navmesh.surface.storeys import check_storeys, storeys_of
 from navmesh.surface.surface import Surface
 from navmesh.threads import in_threads, shares
 
@@ -68,7 +69,7 @@ class LinkedCells:
 
     column_start: np.ndarray
     cell_column: np.ndarray
-    link: np.ndarray
+    storey: np.ndarray
     blocker_start: np.ndarray
     blocker: np.ndarray
 
@@ -81,7 +82,7 @@ class Cells(LinkedCells):
 
 
 class FoundCells(NamedTuple):
-    """Cells as they are found; arrays as in `Surface`."""
+    """Cells as they are found; arrays as in `Surface`, their links (n, 4) int32 as numbers of cells or -1."""
 
     column_start: np.ndarray
     cell_column: np.ndarray
@@ -94,7 +95,8 @@ class FoundCells(NamedTuple):
     def packed(self) -> Cells:
         """The same with their floors packed."""
         return Cells(
-            self.column_start, self.cell_column, self.link, self.blocker_start, self.blocker,
+            self.column_start, self.cell_column, storeys_of(self.column_start, self.cell_column, self.link),
+            self.blocker_start, self.blocker,
             pack_floors(self.column_start, self.height, self.gradient),
         )  # fmt: skip
 
@@ -174,6 +176,7 @@ def found_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window |
         rules.max_step,
         rules.headroom,
     )
+    check_storeys(column_start, terrain.name)
     cells = FoundCells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
     if whole:
         check_floor(cells, terrain, rules)
@@ -197,7 +200,9 @@ def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> Surface:
     nearest = blockers.nearest_blockers(start, cells.blocker, cells.cell_column, whole_patch(grid))
     source = np.arange(len(start) - 1, dtype=np.int32)
     source[start[1:] == start[:-1]] = -1
-    free, choice = clearance.spread_clearance(cells.column_start, cells.link, nearest, source, h, nx, ny)
+    free, choice = clearance.spread_clearance(
+        cells.column_start, cells.cell_column, cells.storey, nearest, source, h, nx, ny
+    )
     surface = Surface(
         origin=grid.origin,
         resolution=grid.resolution,
@@ -205,7 +210,7 @@ def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> Surface:
         column_start=cells.column_start,
         cell_column=cells.cell_column,
         floor=cells.floor,
-        link=cells.link,
+        storey=cells.storey,
         clearance=free,
         choice=choice,
         kept_nearest=np.empty((0, 2)),

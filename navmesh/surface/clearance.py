@@ -10,6 +10,7 @@ can be recalled, see `navmesh.surface.clearance_changes`.
 import numpy as np
 
 from navmesh.surface.clearance_field import centre_of, gap_at
+from navmesh.surface.storeys import APART
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["settle_clearance", "settle_window", "spread_clearance", "sweep"]
@@ -34,10 +35,17 @@ def _nearer(nearest, n, dx, dy, way, best, x, y, origin, so_far):
     return best, x, y, origin, so_far
 
 
+@kernel(inline="always")
+def _over(column_start, storey, c, way, column):
+    """The cell of ``column`` that cell ``c`` is linked to, -1 for none."""
+    return np.int64(column_start[column]) + storey[c, way] if storey[c, way] != APART else np.int64(-1)
+
+
 @kernel
 def sweep(
-    turn, column_start, link, nearest, squared, source, choice, resolution, nx, ny, fixed, known, known_source
-):
+    turn, column_start, cell_column, storey, nearest, squared, source, choice, resolution, nx, ny,
+    fixed, known, known_source,
+):  # fmt: skip
     """One pass over all strips, forth where ``turn`` is 0 and back where it is 1; in place.
 
     ``nearest`` (n, 2) float64, ``squared`` (n,) its square, ``source`` (n,) int32, ``choice`` (n,) uint8, to
@@ -47,6 +55,7 @@ def sweep(
     """
     back, side, other = (2, 3, 1) if turn == 0 else (0, 1, 3)
     h = -resolution if turn == 0 else resolution
+    strip_behind, just_behind = (-ny, -1) if turn == 0 else (ny, 1)  # columns
     part = fixed.shape[0] > 0
     for strip in range(nx):
         ix = strip if turn == 0 else nx - 1 - strip
@@ -56,13 +65,18 @@ def sweep(
             if part and fixed[c]:
                 _take(c, 2 * turn, nearest, squared, source, known, known_source)
                 continue
-            n, m = link[c, back], link[c, side]
-            ahead = behind = -1  # beside the cell in the strip behind
+            column = np.int64(cell_column[c])
+            n = _over(column_start, storey, c, back, column + strip_behind)
+            m = _over(column_start, storey, c, side, column + just_behind)
+            ahead = behind = np.int64(-1)  # beside the cell in the strip behind
             if n >= 0:
-                ahead, behind = link[n, other], link[n, side]
+                column += strip_behind
+                ahead = _over(column_start, storey, n, other, column - just_behind)
+                behind = _over(column_start, storey, n, side, column + just_behind)
             other_way = BACK_BEHIND
             if n < 0 and m >= 0:
-                behind, other_way = link[m, back], BEHIND_BACK
+                behind = _over(column_start, storey, m, back, column + just_behind + strip_behind)
+                other_way = BEHIND_BACK
             best, x, y, origin, way = squared[c], nearest[c, 0], nearest[c, 1], np.int64(c), OWN
             best, x, y, origin, way = _nearer(nearest, n, h, _NONE, BACK, best, x, y, origin, way)
             best, x, y, origin, way = _nearer(nearest, ahead, h, -h, BACK_AHEAD, best, x, y, origin, way)
@@ -79,9 +93,8 @@ def sweep(
                 _take(c, 2 * turn + 1, nearest, squared, source, known, known_source)
                 continue
             best, x, y, origin, way = squared[c], nearest[c, 0], nearest[c, 1], np.int64(c), OWN
-            best, x, y, origin, way = _nearer(
-                nearest, link[c, other], _NONE, -h, AHEAD, best, x, y, origin, way
-            )
+            n = _over(column_start, storey, c, other, np.int64(cell_column[c]) - just_behind)
+            best, x, y, origin, way = _nearer(nearest, n, _NONE, -h, AHEAD, best, x, y, origin, way)
             if way != OWN:
                 squared[c], nearest[c, 0], nearest[c, 1], source[c] = best, x, y, source[origin]
                 choice[c] |= way << (4 * turn)
@@ -102,7 +115,7 @@ def _put(c, turn, nearest, source, known, known_source):
 
 
 @allocating_kernel
-def spread_clearance(column_start, link, nearest, source, resolution, nx, ny):
+def spread_clearance(column_start, cell_column, storey, nearest, source, resolution, nx, ny):
     """Carry the nearest places over the links, in place; returns the clearance (n,) and the choices (n,)
     uint8.
 
@@ -110,7 +123,7 @@ def spread_clearance(column_start, link, nearest, source, resolution, nx, ny):
     int32 the cell whose list of blockers the place is from, or -1. A cell takes from the cells behind it, the
     two diagonal ones included.
     """
-    cells = link.shape[0]
+    cells = storey.shape[0]
     squared = np.empty(cells)
     for c in range(cells):
         squared[c] = nearest[c, 0] * nearest[c, 0] + nearest[c, 1] * nearest[c, 1]
@@ -118,7 +131,7 @@ def spread_clearance(column_start, link, nearest, source, resolution, nx, ny):
     fixed, known, known_source = np.empty(0, np.bool_), np.empty((4, 0, 2)), np.empty((4, 0), np.int32)
     for turn in range(2):
         sweep(
-            turn, column_start, link, nearest, squared, source, choice, resolution, nx, ny,
+            turn, column_start, cell_column, storey, nearest, squared, source, choice, resolution, nx, ny,
             fixed, known, known_source,
         )  # fmt: skip
     for c in range(cells):

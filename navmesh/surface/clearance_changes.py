@@ -8,6 +8,7 @@ all is bit for bit as if the passes had gone over the whole. If not, the rectang
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -44,7 +45,7 @@ class Renewed:
 
 def renew_clearance(
     old: LinkedCells,
-    choice: np.ndarray,
+    field: Any,
     fresh: LinkedCells,
     window: Window,
     around: Patch,
@@ -52,8 +53,8 @@ def renew_clearance(
     most: float,
 ) -> Renewed | None:
     """What comes of putting the columns of ``window`` from ``fresh``, the cells of the patch ``around``, in
-    the place of those of ``old``, all cells of the grid ``whole``, whose ``choice`` (n,) is known. None where
-    more than the share ``most`` of the grid would have to be looked at."""
+    the place of those of ``old``, all cells of the grid ``whole``, whose `FIELD` is known. None where more
+    than the share ``most`` of the grid would have to be looked at."""
     edge = np.array([0, 0, whole.nx, whole.ny])
     inner = _grown(np.array(window), np.full(4, _MARGIN), edge)
     while np.prod(inner[2:] - inner[:2]) <= most * whole.nx * whole.ny:
@@ -65,9 +66,8 @@ def renew_clearance(
         at = Patch(around.side, around.left - patch.left, around.near - patch.near, around.nx, around.ny)
         cells = splice(before, fresh, shifted, at, patch.ny)
         disturbed, nearest, source, chosen = _swept(
-            cells.column_start, cells.cell_column, cells.link, cells.blocker_start, cells.blocker, patch,
-            old.column_start, old.cell_column, old.link, old.blocker_start, old.blocker, choice, whole,
-            first, inner, _guarded(inner, edge), np.array(window),
+            cells.column_start, cells.cell_column, cells.storey, cells.blocker_start, cells.blocker, patch,
+            field, whole, first, inner, _guarded(inner, edge), np.array(window),
         )  # fmt: skip
         if not disturbed.any():
             return Renewed(rectangle, cells, nearest, source, chosen)
@@ -88,11 +88,11 @@ def _guarded(inner: np.ndarray, edge: np.ndarray) -> np.ndarray:
 
 
 @allocating_kernel
-def _recalled(c, turn, link, choice, blocker_start, blocker, cell_column, patch, hops):
+def _recalled(old, c, turn, patch, hops):
     """What cell ``c`` knew after ``turn``: (x, y, the cell with the list, room for hops)."""
     count = 0
     while True:
-        other, turn, dx, dy = came_from(link, choice, c, turn)
+        other, turn, dx, dy = came_from(old, c, turn)
         if other < 0:
             break
         if count == hops.shape[0]:
@@ -100,10 +100,10 @@ def _recalled(c, turn, link, choice, blocker_start, blocker, cell_column, patch,
         hops[count, 0], hops[count, 1] = dx, dy
         count += 1
         c = other
-    if blocker_start[c] == blocker_start[c + 1]:
+    if old.blocker_start[c] == old.blocker_start[c + 1]:
         return np.inf, np.inf, -1, hops
-    mx, my = middle_of(patch, cell_column[c])
-    x, y = nearest_in_list(blocker, blocker_start[c], blocker_start[c + 1], mx, my)
+    mx, my = middle_of(patch, old.cell_column[c])
+    x, y = nearest_in_list(old.blocker, old.blocker_start[c], old.blocker_start[c + 1], mx, my)
     for k in range(count - 1, -1, -1):  # one by one, as they were added
         if hops[k, 0] != 0:
             x += hops[k, 0] * patch.side
@@ -122,8 +122,8 @@ def _inside(patch, column, window):
 
 @allocating_kernel
 def _swept(
-    column_start, cell_column, link, blocker_start, blocker, patch,
-    old_start, old_column, old_link, old_list, old_blocker, old_choice, whole, first, inner, guarded, window,
+    column_start, cell_column, storey, blocker_start, blocker, patch,
+    old, whole, first, inner, guarded, window,
 ):  # fmt: skip
     """Both passes over the cells of ``patch``; those outside of ``inner`` know what they knew before.
 
@@ -131,7 +131,7 @@ def _swept(
     beyond which there is nothing. Returns, for each side, whether the change
     goes on beyond ``inner`` there, and what `Renewed` holds.
     """
-    cells = link.shape[0]
+    cells = storey.shape[0]
     nearest, source = np.full((cells, 2), np.inf), np.full(cells, -1, np.int32)
     squared, choice, fixed = np.full(cells, np.inf), np.zeros(cells, np.uint8), np.empty(cells, np.bool_)
     known, known_source = np.full((4, cells, 2), np.inf), np.full((4, cells), -1, np.int32)
@@ -142,14 +142,12 @@ def _swept(
         fixed[c] = not _inside(patch, column, inner)
         if fixed[c]:
             before = first[column] + c - column_start[column]
-            choice[c] = old_choice[before]
+            choice[c] = old.choice[before]
             for turn in range(4):
-                x, y, origin, hops = _recalled(
-                    before, turn, old_link, old_choice, old_list, old_blocker, old_column, whole, hops
-                )
+                x, y, origin, hops = _recalled(old, before, turn, whole, hops)
                 known[turn, c, 0], known[turn, c, 1] = x, y
-                known_source[turn, c] = _named(origin, old_start, old_column, column_start, patch, whole)
-                if origin >= 0 and _inside(whole, old_column[origin], window):
+                known_source[turn, c] = _named(old, origin, column_start, patch, whole)
+                if origin >= 0 and _inside(whole, old.cell_column[origin], window):
                     _mark(disturbed, patch, column, guarded, 0)
         elif blocker_start[c] < blocker_start[c + 1]:
             mx, my = middle_of(patch, column)
@@ -159,8 +157,8 @@ def _swept(
         return disturbed, nearest, source, choice
     for turn in range(2):
         sweep(
-            turn, column_start, link, nearest, squared, source, choice, patch.side, patch.nx, patch.ny,
-            fixed, known, known_source,
+            turn, column_start, cell_column, storey, nearest, squared, source, choice,
+            patch.side, patch.nx, patch.ny, fixed, known, known_source,
         )  # fmt: skip
     for c in range(cells):
         column = cell_column[c]
@@ -168,29 +166,26 @@ def _swept(
             continue
         before = first[column] + c - column_start[column]
         for turn in range(4):
-            x, y, origin, hops = _recalled(
-                before, turn, old_link, old_choice, old_list, old_blocker, old_column, whole, hops
-            )
+            x, y, origin, hops = _recalled(old, before, turn, whole, hops)
             same = known[turn, c, 0] == x and known[turn, c, 1] == y
-            same &= known_source[turn, c] == _named(
-                origin, old_start, old_column, column_start, patch, whole
-            ) and not (origin >= 0 and _inside(whole, old_column[origin], window))
+            same &= known_source[turn, c] == _named(old, origin, column_start, patch, whole)
+            same &= not (origin >= 0 and _inside(whole, old.cell_column[origin], window))
             if not same:
                 _mark(disturbed, patch, column, guarded, 1)
     return disturbed, nearest, source, choice
 
 
 @kernel
-def _named(origin, old_start, old_column, column_start, patch, whole):
+def _named(old, origin, column_start, patch, whole):
     """A cell of the whole before as `Renewed.source` has it; right where its column is not changed."""
     if origin < 0:
         return -1
-    column = old_column[origin]
+    column = old.cell_column[origin]
     ix = column // whole.ny - patch.left
     iy = column - column // whole.ny * whole.ny - patch.near
     if not (0 <= ix < patch.nx and 0 <= iy < patch.ny):
         return -2 - origin
-    return column_start[ix * patch.ny + iy] + origin - old_start[column]
+    return column_start[ix * patch.ny + iy] + origin - old.column_start[column]
 
 
 @kernel(inline="always")

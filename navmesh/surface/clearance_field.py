@@ -13,6 +13,7 @@ import numpy as np
 from numba import float64, int32, int64, uint8
 
 from navmesh.surface.floor_store import gradient_of, height_of
+from navmesh.surface.storeys import linked, over
 from surefoot.kernels import kernel
 from surefoot.kernels.bundles import BundleType
 
@@ -32,8 +33,9 @@ __all__ = [
 FIELD = BundleType(
     cell=float64,
     ny=int64,
+    column_start=int32[::1],
     cell_column=int32[::1],
-    link=int32[:, ::1],
+    storey=uint8[:, ::1],
     nearest=float64[:, ::1],
     clearance=float64[::1],
     choice=uint8[::1],
@@ -120,13 +122,13 @@ def _along_list(net, cell, px, py, ux, uy, stretch, gap, s, x, y):
 def _around(net, k, right, up):
     """Cell ``k``, those beside it in the directions ``right`` and ``up``, and the one between these; -1 for
     one that is not there, or has no list of blockers, or the same as one before."""
-    link, source = net.link, net.source
-    side, other = np.int64(link[k, right]), np.int64(link[k, up])
+    source, column = net.source, np.int64(net.cell_column[k])
+    side, other = over(net, k, column, right), over(net, k, column, up)
     corner = np.int64(-1)
     if side >= 0:
-        corner = np.int64(link[side, up])
+        corner = over(net, side, column + net.ny if right == 0 else column - net.ny, up)
     elif other >= 0:
-        corner = np.int64(link[other, right])
+        corner = over(net, other, column + 1 if up == 1 else column - 1, right)
     first = source[k]
     second = source[side] if side >= 0 else first
     third = source[other] if other >= 0 else first
@@ -210,11 +212,11 @@ def same_place(net, k, other):
     if k == other:
         return True
     for way in range(4):
-        beside = net.link[k, way]
+        beside = linked(net, k, way)
         if beside == other:
             return True
         if beside >= 0 and (
-            net.link[beside, (way + 1) % 4] == other or net.link[beside, (way + 3) % 4] == other
+            linked(net, beside, (way + 1) % 4) == other or linked(net, beside, (way + 3) % 4) == other
         ):
             return True
     return False
@@ -271,7 +273,7 @@ def walk(net, k, ax, ay, bx, by, radius, through):
     apart: the least gap is 1e300 then.
     """
     h, ny = net.cell, net.ny
-    link, clearance, label = net.link, net.clearance, net.label
+    clearance, label = net.clearance, net.label
     position, node_radius, column_start = net.position, net.node_radius, net.column_start
     per_h = 1.0 / h
     dx = bx - ax
@@ -340,12 +342,12 @@ def walk(net, k, ax, ay, bx, by, radius, through):
         if next_x < next_y:
             s = next_x
             next_x += step_x
-            following = link[k, way_x]
+            following = over(net, k, ix * ny + iy, way_x)
             ix += turn_x
         else:
             s = next_y
             next_y += step_y
-            following = link[k, way_y]
+            following = over(net, k, ix * ny + iy, way_y)
             iy += turn_y
         if following < 0:
             return False, k, -1.0, s * per_length, ax + s * ux, ay + s * uy, tight

@@ -10,6 +10,7 @@ import numpy as np
 from navmesh.surface.blockers import nearest_in_list
 from navmesh.surface.clearance import AHEAD, BACK, BACK_AHEAD, BACK_BEHIND, BEHIND, BEHIND_BACK, OWN
 from navmesh.surface.clearance_field import centre_of, gap_at
+from navmesh.surface.storeys import linked
 from surefoot.kernels import kernel
 
 __all__ = ["came_from", "nearest_of", "nearly_nearest_of", "recall"]
@@ -19,37 +20,37 @@ _LAST = 3
 
 
 @kernel(error_model="numpy")
-def came_from(link, choice, c, turn):
+def came_from(net, c, turn):
     """Where cell ``c`` took from what it knew after ``turn``: (cell, the turn after which that knew it, hop
     in x, hop in y), hops in cells; cell -1 where it is from its own list, -2 where no link leads there."""
     while True:
         back, side, other = (2, 3, 1) if turn < 2 else (0, 1, 3)
         forth = 1 if turn < 2 else -1
-        bits = choice[c] >> (4 * (turn >> 1))
+        bits = net.choice[c] >> (4 * (turn >> 1))
         if turn & 1 == 1:
             if bits & AHEAD:
-                return _over(link, np.int64(c), other), turn, 0, forth
+                return _over(net, np.int64(c), other), turn, 0, forth
         else:
             way = bits & 7
             if way == BEHIND:
-                return _over(link, np.int64(c), side), turn, 0, -forth
+                return _over(net, np.int64(c), side), turn, 0, -forth
             if way == BACK:
-                return _over(link, np.int64(c), back), turn + 1, -forth, 0
+                return _over(net, np.int64(c), back), turn + 1, -forth, 0
             if way == BACK_AHEAD:
-                return _over(link, _over(link, np.int64(c), back), other), turn + 1, -forth, forth
+                return _over(net, _over(net, np.int64(c), back), other), turn + 1, -forth, forth
             if way == BACK_BEHIND:
-                return _over(link, _over(link, np.int64(c), back), side), turn + 1, -forth, -forth
+                return _over(net, _over(net, np.int64(c), back), side), turn + 1, -forth, -forth
             if way == BEHIND_BACK:
-                return _over(link, _over(link, np.int64(c), side), back), turn + 1, -forth, -forth
+                return _over(net, _over(net, np.int64(c), side), back), turn + 1, -forth, -forth
         if turn == 0:
             return np.int64(-1), 0, 0, 0
         turn -= 1
 
 
 @kernel(error_model="numpy", inline="always")
-def _over(link, c, way):
+def _over(net, c, way):
     """The cell that a link leads to; -2 where there is none."""
-    other = np.int64(link[c, way]) if c >= 0 else np.int64(-2)
+    other = linked(net, c, way) if c >= 0 else np.int64(-2)
     return other if other >= 0 else np.int64(-2)
 
 
@@ -57,7 +58,7 @@ def _over(link, c, way):
 def recall(field, column_start, nx, nearest):
     """Fill in ``nearest`` (n, 2) float64 [m] of all cells of a `FIELD` of ``nx`` strips of columns. The turns
     are gone through again in their order, so each cell finds what it took."""
-    link, choice, cells = field.link, field.choice, field.link.shape[0]
+    choice, cells = field.choice, field.choice.shape[0]
     for c in range(cells):
         nearest[c, 0], nearest[c, 1] = _own_place(field, c)
     h = field.cell
@@ -73,20 +74,20 @@ def recall(field, column_start, nx, nearest):
                 if way == OWN:
                     continue
                 first_step = side if way == BEHIND or way == BEHIND_BACK else back
-                n, x, y = np.int64(link[c, first_step]), -forth, 0.0
+                n, x, y = linked(field, c, first_step), -forth, 0.0
                 if way == BEHIND:
                     x, y = 0.0, -forth
                 elif way == BACK_AHEAD:
-                    n, y = np.int64(link[n, other]), forth
+                    n, y = linked(field, n, other), forth
                 elif way == BACK_BEHIND:
-                    n, y = np.int64(link[n, side]), -forth
+                    n, y = linked(field, n, side), -forth
                 elif way == BEHIND_BACK:
-                    n, y = np.int64(link[n, back]), -forth
+                    n, y = linked(field, n, back), -forth
                 _take(nearest, c, n, x, y)
             for i in range(first, last):
                 c = first + last - 1 - i if turn == 0 else i
                 if (choice[c] >> (2 * turn)) & AHEAD:
-                    _take(nearest, c, np.int64(link[c, other]), 0.0, forth)
+                    _take(nearest, c, linked(field, c, other), 0.0, forth)
     for c in range(cells):
         nearest[c, 0], nearest[c, 1] = _settled(field, c, nearest[c, 0], nearest[c, 1])
 
@@ -123,7 +124,7 @@ def _known(net, c):
     at, then, count = c, _LAST, 0
     east, west, north, south = 0, 0, 0, 0
     while choice[at] != 0:
-        other, then, dx, dy = came_from(net.link, choice, at, then)
+        other, then, dx, dy = came_from(net, at, then)
         if other < 0:
             break
         east, west = east + (dx > 0), west + (dx < 0)
@@ -140,7 +141,7 @@ def _known(net, c):
     for hop in range(count - 1, -1, -1):  # there and back: each after those nearer to the place
         at, then, dx, dy = c, _LAST, 0, 0
         for _ in range(hop + 1):
-            at, then, dx, dy = came_from(net.link, choice, at, then)
+            at, then, dx, dy = came_from(net, at, then)
         x, y = _after(x, y, dx, dy, net.cell)
     return x, y
 

@@ -12,7 +12,7 @@ from navmesh.surface.clearance_changes import renew_clearance
 from navmesh.surface.floor_store import renew_floors
 from navmesh.surface.splicing import copy_run, renumber_run, runs_of, splice
 from navmesh.surface.surface import Surface
-from navmesh.surface.windows import links_in
+from navmesh.surface.windows import cells_within
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["cells_in", "cells_of_surface", "inside_of", "moved_cells", "renew_surface"]
@@ -21,7 +21,7 @@ __all__ = ["cells_in", "cells_of_surface", "inside_of", "moved_cells", "renew_su
 def cells_of_surface(surface: Surface) -> Cells:
     """The cells that a surface is made of."""
     return Cells(
-        surface.column_start, surface.cell_column, surface.link, surface.blocker_start, surface.blocker,
+        surface.column_start, surface.cell_column, surface.storey, surface.blocker_start, surface.blocker,
         surface.floor,
     )  # fmt: skip
 
@@ -43,9 +43,9 @@ def renew_surface(
         whole.ny,
     )  # fmt: skip
     cells = Cells(
-        linked.column_start, linked.cell_column, linked.link, linked.blocker_start, linked.blocker, floor
+        linked.column_start, linked.cell_column, linked.storey, linked.blocker_start, linked.blocker, floor
     )
-    new = renew_clearance(before, old.choice, fresh, window, around, whole, most)
+    new = renew_clearance(before, old.field, fresh, window, around, whole, most)
     if new is None:
         return surface_of(cells, grid), None
     left, near, right, far = new.window
@@ -59,7 +59,7 @@ def renew_surface(
     )  # fmt: skip
     surface = Surface(
         origin=grid.origin, resolution=grid.resolution, shape=grid.shape,
-        column_start=cells.column_start, cell_column=cells.cell_column, floor=floor, link=cells.link,
+        column_start=cells.column_start, cell_column=cells.cell_column, floor=floor, storey=cells.storey,
         clearance=clearance, choice=choice, kept_nearest=np.empty((0, 2)), source=source,
         blocker_start=cells.blocker_start, blocker=cells.blocker,
     )  # fmt: skip
@@ -68,12 +68,16 @@ def renew_surface(
 
 
 def cells_in(surface: Surface, window: Window) -> tuple[Any, np.ndarray]:
-    """The cells of the columns of ``window`` as a `FIELD`, links that lead out of it being -1, without what
-    measuring distances takes, and the number of each of them in the whole (n,) int32."""
-    ny = surface.shape[1]
-    link, where = links_in(surface.column_start, surface.link, np.array(window), ny)
-    owner, clearance = _taken(where, surface.cell_column, surface.clearance)
-    return replace(surface, cell_column=owner, link=link, clearance=clearance).field, where
+    """The cells of the columns of ``window`` by themselves as a `FIELD`, links that lead out of it being cut,
+    without what measuring distances takes; and the number of each of them in the whole (n,) int32."""
+    start, column, storey, where = cells_within(
+        surface.column_start, surface.storey, np.array(window), surface.shape[1]
+    )
+    shape, clearance = (window[2] - window[0], window[3] - window[1]), surface.clearance[where]
+    part = replace(
+        surface, shape=shape, column_start=start, cell_column=column, storey=storey, clearance=clearance
+    )
+    return part.field, where
 
 
 def moved_cells(cells: np.ndarray, before: Surface, surface: Surface, window: Window) -> np.ndarray:
@@ -100,14 +104,6 @@ def _inside_of(columns, window, ny):
         iy = columns[k] - ix * ny
         inside[k] = window[0] <= ix < window[2] and window[1] <= iy < window[3]
     return inside
-
-
-@allocating_kernel
-def _taken(where, cell_column, clearance):
-    owner, to_clearance = np.empty(where.shape[0], np.int32), np.empty(where.shape[0])
-    for k in range(where.shape[0]):
-        owner[k], to_clearance[k] = cell_column[where[k]], clearance[where[k]]
-    return owner, to_clearance
 
 
 @kernel(inline="always")

@@ -12,6 +12,7 @@ import numpy as np
 
 from navmesh.surface.clearance_field import centre_of, gap_at, stretch_gap
 from navmesh.surface.recall import nearest_of, nearly_nearest_of
+from navmesh.surface.storeys import linked
 from surefoot.kernels import kernel
 
 __all__ = ["half_width", "middle", "middle_beside", "widest_through"]
@@ -25,7 +26,7 @@ def _half_width(field, c):
     vx, vy = field.nearest[c, 0], field.nearest[c, 1]
     least = np.inf
     for d in range(4):
-        n = field.link[c, d]
+        n = linked(field, c, d)
         wx = ((1 if d == 0 else 0) - (1 if d == 2 else 0)) * field.cell
         wy = ((1 if d == 1 else 0) - (1 if d == 3 else 0)) * field.cell
         if n >= 0:
@@ -47,7 +48,7 @@ def half_width(field, c):
     exact = not far  # whether v is known to the last bit
     least = np.inf
     for d in range(4):
-        n = field.link[c, d]
+        n = linked(field, c, d)
         hx = ((1 if d == 0 else 0) - (1 if d == 2 else 0)) * field.cell
         hy = ((1 if d == 1 else 0) - (1 if d == 3 else 0)) * field.cell
         wx, wy = 0.0, 0.0
@@ -79,13 +80,13 @@ def _under(field, k, x, y):
     if across < 0 and along < 0:
         return k
     if across < 0 or along < 0:
-        beside = field.link[k, max(across, along)]
+        beside = linked(field, k, max(across, along))
         return beside if beside >= 0 else k
-    beside = field.link[k, across]
-    corner = field.link[beside, along] if beside >= 0 else -1
+    beside = linked(field, k, across)
+    corner = linked(field, beside, along) if beside >= 0 else -1
     if corner < 0:
-        other = field.link[k, along]
-        corner = field.link[other, across] if other >= 0 else -1
+        other = linked(field, k, along)
+        corner = linked(field, other, across) if other >= 0 else -1
         if corner < 0:
             corner = beside if beside >= 0 else (other if other >= 0 else k)
     return corner

@@ -8,7 +8,7 @@ import numpy as np
 
 from navmesh.level.raster import Patch
 from navmesh.surface.build import LinkedCells, Window
-from navmesh.surface.windows import columns_in, links_within
+from navmesh.surface.windows import columns_in, storeys_within
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["copy_run", "renumber_run", "runs_of", "splice", "take"]
@@ -27,7 +27,7 @@ def splice(old: LinkedCells, new: LinkedCells, window: Window, patch: Patch, ny:
         blockers += int(lists[first + size]) - int(lists[first])
     # numpy takes large arrays in large pages, which is twice as fast
     found = LinkedCells(
-        np.empty(len(old.column_start), np.int32), np.empty(count, np.int32), np.empty((count, 4), np.int32),
+        np.empty(len(old.column_start), np.int32), np.empty(count, np.int32), np.empty((count, 4), np.uint8),
         np.empty(count + 1, np.int32), np.empty((blockers, 4)),
     )  # fmt: skip
     _columns(
@@ -35,10 +35,9 @@ def splice(old: LinkedCells, new: LinkedCells, window: Window, patch: Patch, ny:
         found.column_start, found.cell_column,
     )  # fmt: skip
     _fill(
-        old.column_start, old.cell_column, old.link.reshape(-1), old.blocker_start, old.blocker.reshape(-1),
-        new.column_start, new.cell_column, new.link.reshape(-1), new.blocker_start, new.blocker.reshape(-1),
-        patch, ny, runs, found.column_start, found.link.reshape(-1), found.blocker_start,
-        found.blocker.reshape(-1),
+        old.storey.reshape(-1), old.blocker_start, old.blocker.reshape(-1),
+        new.storey.reshape(-1), new.blocker_start, new.blocker.reshape(-1),
+        runs, found.storey.reshape(-1), found.blocker_start, found.blocker.reshape(-1),
     )  # fmt: skip
     return found
 
@@ -101,12 +100,8 @@ def _columns(old_start, old_owner, new_start, window, patch, ny, runs, start, ow
 
 
 @kernel
-def _fill(
-    old_start, old_column, old_link, old_list, old_blocker,
-    new_start, new_column, new_link, new_list, new_blocker,
-    patch, ny, runs, start, link, lists, blocker,
-):  # fmt: skip
-    """Fill in the whole, whose ``column_start`` is known. Links and blockers are flat."""
+def _fill(old_storey, old_list, old_blocker, new_storey, new_list, new_blocker, runs, storey, lists, blocker):
+    """Fill in the whole. Storeys and blockers are flat."""
     blockers = 0
     for row in range(runs.shape[0]):
         first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
@@ -116,20 +111,7 @@ def _fill(
         copy_run(part_blocker, 4 * begin, 4 * (end - begin), blocker, 4 * blockers)
         add_run(part_list, first, size, blockers - begin, lists, at)
         blockers += end - begin
-        if not fresh:
-            renumber_run(old_link, 4, first, size, at, old_column, old_start, start, link)
-            continue
-        for k in range(4 * first, 4 * (first + size)):
-            m = new_link[k]
-            if first <= m < first + size:
-                m += at - first
-            elif m >= 0:
-                inside = new_column[m]
-                ix = inside // patch.ny
-                c = (ix + patch.left) * ny + inside - ix * patch.ny + patch.near
-                # the same one of its column's cells: also where that column is from the other part
-                m = start[c] + m - new_start[inside]
-            link[k + 4 * (at - first)] = m
+        copy_run(new_storey if fresh else old_storey, 4 * first, 4 * size, storey, 4 * at)
     lists[lists.shape[0] - 1] = blockers
 
 
@@ -180,22 +162,22 @@ def _shift(given, shift, taken):
 
 
 def take(cells: LinkedCells, window: Window, ny: int) -> tuple[LinkedCells, np.ndarray]:
-    """The columns of ``window`` by themselves, links that lead out of it being -1, and which is the first
+    """The columns of ``window`` by themselves, links that lead out of it being cut, and which is the first
     cell of each of them in the whole: (columns,) int32. ``ny``: of the whole grid."""
     *arrays, first = _take(
-        cells.column_start, cells.link, cells.blocker_start, cells.blocker, np.array(window), ny
+        cells.column_start, cells.storey, cells.blocker_start, cells.blocker, np.array(window), ny
     )  # fmt: skip
     return LinkedCells(*arrays), first
 
 
 @allocating_kernel
-def _take(column_start, link, blocker_start, blocker, window, ny):
+def _take(column_start, storey, blocker_start, blocker, window, ny):
     start, first = columns_in(column_start, window, ny)
     count = start[-1]
     owner, lists = np.empty(count, np.int32), np.empty(count + 1, np.int32)
-    to_link = np.empty((count, 4), np.int32)
+    to_storey = np.empty((count, 4), np.uint8)
     lists[0] = 0
-    links_within(link, start, first, window, to_link)
+    storeys_within(storey, start, first, window, to_storey)
     for c in range(first.shape[0]):
         for k in range(start[c], start[c + 1]):
             m = first[c] + k - start[c]
@@ -205,4 +187,4 @@ def _take(column_start, link, blocker_start, blocker, window, ny):
     for c in range(first.shape[0]):
         begin, size = blocker_start[first[c]], lists[start[c + 1]] - lists[start[c]]
         to_blocker[lists[start[c]] : lists[start[c + 1]]] = blocker[begin : begin + size]
-    return start, owner, to_link, lists, to_blocker, first
+    return start, owner, to_storey, lists, to_blocker, first

@@ -16,6 +16,7 @@ from navmesh.level.terrain import Terrain
 from navmesh.rules import WalkRules
 from navmesh.surface.build import Cells, Grid, check_floor, find_cells, found_cells, patch_around, reach_of
 from navmesh.surface.floor_store import SIDE, join_floors, pack_floors
+from navmesh.surface.storeys import storeys_of
 from navmesh.threads import in_threads
 from surefoot.freed_memory import give_back
 
@@ -71,23 +72,18 @@ def _strip(terrain: Terrain, rules: WalkRules, grid: Grid, first: int, last: int
     column = found.cell_column[begin:end]
     ix = column // np.int32(patch.ny)
     column = column - ix * np.int32(patch.ny - ny) + np.int32(patch.left * ny + patch.near)
-    link = found.link[begin:end]
     lists = found.blocker_start[begin : end + 1]
     start = start.ravel()
     return Cells(
         start,
         column,
-        np.where(link >= 0, link - begin, _NONE),
+        storeys_of(found.column_start, found.cell_column, found.link)[begin:end].copy(),
         lists[:-1] - lists[0],
         found.blocker[lists[0] : lists[-1]].copy(),
         pack_floors(
             np.append(start, np.int32(end - begin)), found.height[begin:end], found.gradient[begin:end]
         ),
     )
-
-
-_NONE = np.int32(-(2**30))
-"""No link, in a strip: a link into the margin before has a number below 0, too."""
 
 
 def _joined(strips: list[Cells]) -> Cells:
@@ -99,9 +95,6 @@ def _joined(strips: list[Cells]) -> Cells:
     for k, part in enumerate(parts):
         part["column_start"] += np.int32(count[k])
         part["blocker_start"] += np.int32(lists[k])
-        link = part["link"]
-        np.add(link, np.int32(count[k]), out=link, where=link > _NONE)
-        link[link == _NONE] = -1
     end = {"column_start": count[-1], "blocker_start": lists[-1]}
     whole: dict[str, Any] = {"floor": join_floors([part.pop("floor") for part in parts])}
     for name in list(parts[0]):

@@ -14,12 +14,13 @@ import numpy as np
 from navmesh.surface.clearance_field import FIELD
 from navmesh.surface.floor_store import FloorStore
 from navmesh.surface.recall import recall
+from navmesh.surface.storeys import APART, links_of
 from surefoot.kernels.bundles import Bundle
 
 __all__ = ["DIRECTIONS", "Surface"]
 
 DIRECTIONS = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)], dtype=np.int32)
-"""(4, 2) int32: the steps in (ix, iy) of the four columns of `Surface.link`; direction d + 2 goes back."""
+"""(4, 2) int32: the steps in (ix, iy) of the four columns of `Surface.storey`; direction d + 2 goes back."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,8 +39,9 @@ class Surface:
     """(n,) int32: the column of each cell."""
     floor: FloorStore
     """`height` and `gradient` of the cells, packed."""
-    link: np.ndarray
-    """(n, 4) int32: the cell that one walks to in +x, +y, -x, -y, or -1 where walking ends. Symmetric."""
+    storey: np.ndarray
+    """(n, 4) uint8: which cell of the column in +x, +y, -x, -y one walks to, the lowest being 0, or `APART`
+    where walking ends; see `navmesh.surface.storeys`."""
     clearance: np.ndarray
     """(n,) float64 [m]: horizontal distance from the cell's centre to where walking ends."""
     choice: np.ndarray
@@ -61,10 +63,17 @@ class Surface:
     def field(self) -> Any:
         """What kernels need to measure distances, a `FIELD`."""
         return Bundle(
-            FIELD, cell=self.resolution, ny=self.shape[1], cell_column=self.cell_column, link=self.link,
-            nearest=self.kept_nearest, clearance=self.clearance, choice=self.choice, source=self.source,
+            FIELD, cell=self.resolution, ny=self.shape[1], column_start=self.column_start,
+            cell_column=self.cell_column, storey=self.storey, nearest=self.kept_nearest,
+            clearance=self.clearance, choice=self.choice, source=self.source,
             blocker_start=self.blocker_start, blocker=self.blocker,
         )  # fmt: skip
+
+    @property
+    def link(self) -> np.ndarray:
+        """(n, 4) int32: the cell that one walks to in +x, +y, -x, -y, or -1 where walking ends. Symmetric.
+        Worked out for all cells each time."""
+        return links_of(self.field)
 
     @property
     def nearest(self) -> np.ndarray:
@@ -86,6 +95,13 @@ class Surface:
         """(n, 2) float64: slope of the floor at the cell's centre, dz/dx and dz/dy; on a riser cut to what
         `max_slope` allows. Unpacked each time."""
         return self.floor.unpacked(self.column_start)[1]
+
+    def links(self, cells: np.ndarray) -> np.ndarray:
+        """`link` (k, 4) of ``cells`` (k,)."""
+        storey = self.storey[cells]
+        beside = self.cell_column[cells][:, None] + DIRECTIONS @ np.array([self.shape[1], 1], np.int32)
+        start = self.column_start[np.clip(beside, 0, len(self.column_start) - 1)]
+        return np.where(storey == APART, -1, start + storey)
 
     def heights(self, cells: np.ndarray) -> np.ndarray:
         """`height` of ``cells`` (k,)."""

@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from navmesh.surface.storeys import APART
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["columns_in", "links_in", "links_within"]
+__all__ = ["cells_within", "columns_in", "storeys_within"]
 
 
 @allocating_kernel
@@ -24,38 +25,39 @@ def columns_in(column_start, window, ny):
 
 
 @kernel
-def links_within(link, start, first, window, found):
-    """Fill in the links of the cells of a ``window``, by the cells' numbers in it; -1 for those that lead
-    out. ``start`` and ``first`` are those of `columns_in`. Cells of a strip are in a row, in the window and
-    in the whole, so all links to a strip change by the same number."""
+def storeys_within(storey, start, first, window, found):
+    """Fill in the storeys of the cells of a ``window``; `APART` for those that lead out. ``start`` and
+    ``first`` are those of `columns_in`. Cells of a strip are in a row, in the window and in the whole."""
     across, along = window[2] - window[0], window[3] - window[1]
     for i in range(across if along > 0 else 0):
-        left, here, right = max(i - 1, 0) * along, i * along, min(i + 1, across - 1) * along
+        here = i * along
         size = start[here + along] - start[here]
-        given = link[first[here] : first[here] + size]
         taken = found[start[here] : start[here] + size]
-        by = np.int32(start[here] - first[here])
-        ahead, back = np.int32(start[right] - first[right]), np.int32(start[left] - first[left])
+        given = storey[first[here] : first[here] + size]
         for k in range(size):
-            for d in range(4):
-                m = given[k, d]
-                shift = ahead if d == 0 else (back if d == 2 else by)
-                taken[k, d] = np.int32(m + shift) if m >= 0 else m
+            for way in range(4):
+                taken[k, way] = given[k, way]
         if i == 0:
-            taken[:, 2] = -1
+            taken[:, 2] = APART
         if i == across - 1:
-            taken[:, 0] = -1
-        taken[: start[here + 1] - start[here], 3] = -1
-        taken[start[here + along - 1] - start[here] :, 1] = -1
+            taken[:, 0] = APART
+        taken[: start[here + 1] - start[here], 3] = APART
+        taken[start[here + along - 1] - start[here] :, 1] = APART
 
 
 @allocating_kernel
-def links_in(column_start, link, window, ny):
-    """The links (n, 4) int32 among the cells of ``window``, and the numbers (n,) int32 of these."""
+def cells_within(column_start, storey, window, ny):
+    """The cells of a ``window`` by themselves: ``column_start``, the column and the storeys of each, and its
+    number in the whole (n,) int32."""
     start, first = columns_in(column_start, window, ny)
-    found, where = np.empty((start[-1], 4), np.int32), np.empty(start[-1], np.int32)
-    links_within(link, start, first, window, found)
+    count = start[-1]
+    found, column, where = (
+        np.empty((count, 4), np.uint8),
+        np.empty(count, np.int32),
+        np.empty(count, np.int32),
+    )
+    storeys_within(storey, start, first, window, found)
     for c in range(first.shape[0]):
         for k in range(start[c], start[c + 1]):
-            where[k] = first[c] + k - start[c]
-    return found, where
+            column[k], where[k] = c, first[c] + k - start[c]
+    return start, column, found, where

@@ -8,6 +8,7 @@ from scipy.spatial import KDTree
 
 from navmesh.errors import NavmeshError
 from navmesh.graph.nodes import grain_of
+from navmesh.surface.storeys import linked
 from navmesh.surface.surface import Surface
 from navmesh.zones.distances import segments_to_outline
 from navmesh.zones.leaps import links_near
@@ -70,7 +71,7 @@ def divide(graph: "NodeGraph", outlines: dict[str, np.ndarray], may_be_nowhere: 
     lists = lists_with(surface, cell[order], zone[order], side_start)
     nearest = surface.nearest
     divided = replace(
-        surface, link=surface.link.copy(), clearance=surface.clearance.copy(), kept_nearest=nearest,
+        surface, storey=surface.storey.copy(), clearance=surface.clearance.copy(), kept_nearest=nearest,
         source=lists.source, blocker_start=lists.blocker_start, blocker=lists.blocker,
     )  # fmt: skip
     side_zone = np.searchsorted(side_start, lists.side, side="right") - 1
@@ -82,7 +83,7 @@ def divide(graph: "NodeGraph", outlines: dict[str, np.ndarray], may_be_nowhere: 
         "known_clearance": surface.clearance[known_cell],
         "near_start": near_start, "near_zone": near_zone, "near": near,
         "side_start": row_start, "side_row": row, "side": np.ascontiguousarray(sides[side]),
-        "origin": np.ascontiguousarray(surface.origin, np.float64), "all_link": divided.link,
+        "origin": np.ascontiguousarray(surface.origin, np.float64), "all_storey": divided.storey,
         "all_clearance": divided.clearance, "all_nearest": nearest, "all_blocker": divided.blocker,
     }  # fmt: skip
     users = _users(graph, local, found)
@@ -93,7 +94,7 @@ def divide(graph: "NodeGraph", outlines: dict[str, np.ndarray], may_be_nowhere: 
     rows = np.diff(users["row_start"])[users["user"]]
     bound = np.add.reduceat(np.append(8 * rows, 0), users["user_start"][:-1]).astype(np.int64)
     bound[np.diff(users["user_start"]) == 0] = 0
-    beside = surface.link[users["row_cell"]].ravel()
+    beside = surface.links(users["row_cell"]).ravel()
     owner = graph.label[beside[beside >= 0]]
     fringe = np.setdiff1d(owner[owner >= 0], users["whole"]).astype(np.int32)
     return Divided(divided, switches, near_users, bound, fringe, links)
@@ -119,7 +120,7 @@ def _cuts(found: list[Concerned], surface: Surface) -> Arrays:
     cell, way = np.concatenate([each.cut for each in found]).astype(np.int64).T
     link, at = np.unique(cell * 4 + way, return_inverse=True)
     cut_start, cut_link = grouped(zone, len(found), at.astype(np.int32))
-    to = surface.link[link // 4, link % 4]
+    to = surface.storey[link // 4, link % 4]
     return {
         "cut_start": cut_start, "cut_link": cut_link,
         "cut": np.column_stack([link // 4, link % 4, to]).astype(np.int32).reshape(-1, 3),
@@ -134,6 +135,7 @@ def _users(graph: "NodeGraph", outlines: list[np.ndarray], found: list[Concerned
     node_start, node_at = grouped(graph.node_cell, len(graph.label), np.arange(len(graph)))
     edge_start, edge_at = grouped(graph.edge_cells[:, 0], len(graph.label), np.arange(len(source)))
     cut, follow, mark = [], [], np.zeros(len(graph.label), np.int32)
+    field = graph.surface.field
     for outline, each in zip(outlines, found, strict=True):
         flat = np.ascontiguousarray(outline[:, :2])
         nodes = _listed(node_start, node_at, each.cell)
@@ -145,7 +147,7 @@ def _users(graph: "NodeGraph", outlines: list[np.ndarray], found: list[Concerned
         way = segments_to_outline(flat, np.column_stack([place[ends], gate]))
         cut.append(np.union1d(inside, ends[way < width - _TOUCH]))
         number = len(follow) + 1
-        owner = np.unique(graph.label[_linked(graph.surface.link, each.cell, _STEPS, mark, number)])
+        owner = np.unique(graph.label[_linked(field, each.cell, _STEPS, mark, number)])
         follow.append(np.union1d(owner[owner >= 0], cut[-1]))
     whole = np.unique(np.concatenate(cut)).astype(np.int32)
     follow = [each[np.isin(each, whole)] for each in follow]
@@ -158,7 +160,7 @@ def _users(graph: "NodeGraph", outlines: list[np.ndarray], found: list[Concerned
     cell_row = np.full(len(graph.label), -1, np.int32)
     cell_row[row_cell] = np.arange(len(row_cell))
     row_user = np.repeat(np.arange(len(whole), dtype=np.int32), np.diff(row_start))
-    beside = graph.surface.link[row_cell]
+    beside = graph.surface.links(row_cell)
     at_rim = ((beside >= 0) & (owner[beside] != row_user[:, None])).any(axis=1)
     rim_start, rim = grouped(row_user[at_rim], len(whole), np.flatnonzero(at_rim).astype(np.int32))
     return {
@@ -177,7 +179,7 @@ def _users(graph: "NodeGraph", outlines: list[np.ndarray], found: list[Concerned
 
 
 @allocating_kernel
-def _linked(link, cells, steps, mark, number):
+def _linked(field, cells, steps, mark, number):
     """``cells`` (k,), and those that up to so many ``steps`` over links lead to. ``mark`` (n,) int32 are
     notes of which cells have been come to for which ``number``, above 0."""
     found = np.empty(2 * cells.size + 64, np.int32)
@@ -188,7 +190,7 @@ def _linked(link, cells, steps, mark, number):
         last = count
         for i in range(first, last):
             for d in range(4):
-                other = link[found[i], d]
+                other = linked(field, found[i], d)
                 if other < 0 or mark[other] == number:
                     continue
                 if count == found.size:

@@ -9,6 +9,7 @@ import numpy as np
 from navmesh.errors import NavmeshError
 from navmesh.obstacles.free_length import cells_of
 from navmesh.surface.floor_store import height_of
+from navmesh.surface.storeys import linked
 from navmesh.surface.surface import Surface
 from navmesh.zones.distances import is_inside, touches
 from surefoot.kernels import allocating_kernel, kernel
@@ -126,7 +127,7 @@ def _is_cut(outline, low, high, cells, k, other, x, y, px, py):
 
 @allocating_kernel(error_model="numpy")
 def _concerned(outline, low, high, cells, clearance, mark, number):
-    column_start, link, nx, ny, h = cells.column_start, cells.link, cells.nx, cells.ny, cells.size
+    column_start, nx, ny, h = cells.column_start, cells.nx, cells.ny, cells.size
     queue = np.empty(1024, np.int32)
     size = 0
     cut = np.empty((256, 2), np.int32)
@@ -148,7 +149,7 @@ def _concerned(outline, low, high, cells, clearance, mark, number):
                 seen = dx * dx + dy * dy < clearance[k] * clearance[k]
                 first = (under or seen) and low <= height_of(cells, k) <= high
                 for d in range(4):
-                    other = link[k, d]
+                    other = linked(cells, k, d)
                     if other < 0:
                         continue
                     px, py = x + ((d == 0) - (d == 2)) * h, y + ((d == 1) - (d == 3)) * h
@@ -185,7 +186,7 @@ def _concerned(outline, low, high, cells, clearance, mark, number):
         found[count], nearest[count, 0], nearest[count, 1] = k, dx, dy
         count += 1
         for d in range(4):
-            other = link[k, d]
+            other = linked(cells, k, d)
             if other < 0 or mark[other] == number:
                 continue
             px, py = x + ((d == 0) - (d == 2)) * h, y + ((d == 1) - (d == 3)) * h

@@ -54,7 +54,7 @@ def _made(graph: "NodeGraph") -> "NodeGraph":
         node_cell=graph.node_cell[there], edge_start=start, edge_target=target, edge_width=width,
         edge_gate=gate, edge_cells=border, links=links, kept_build=None, zone_state=None, cache={},
         surface=replace(
-            surface, link=surface.link.copy(), clearance=surface.clearance.copy(),
+            surface, storey=surface.storey.copy(), clearance=surface.clearance.copy(),
             kept_nearest=surface.kept_nearest.copy(), blocker=surface.blocker.copy(),
         ),
     )  # fmt: skip

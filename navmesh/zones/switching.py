@@ -7,11 +7,12 @@ are follows from which zones are blocked now, not from what was blocked before.
 """
 
 import numpy as np
-from numba import float64, int32, int64
+from numba import float64, int32, int64, uint8
 
 from navmesh.graph.edges import widest_pair
 from navmesh.graph.nodes import disc_at
 from navmesh.surface.clearance_field import centre_of, floor_at
+from navmesh.surface.storeys import APART, linked
 from navmesh.zones.memo import MIX, place_of, sign_of
 from surefoot.kernels import allocating_kernel, kernel
 from surefoot.kernels.bundles import BundleType
@@ -77,7 +78,7 @@ SWITCHES = BundleType(
     kept=int64[:, ::1],
     kept_place=float64[:, ::1],
     kept_border=int32[:, ::1],
-    all_link=int32[:, ::1],
+    all_storey=uint8[:, ::1],
     all_clearance=float64[::1],
     all_nearest=float64[:, ::1],
     all_label=int32[::1],
@@ -91,7 +92,7 @@ blocked (z,): 1 or 0. Cells *know* the zones that can be nearer to them than whe
 known to cell_known[cell_start[i]:cell_start[i + 1]], indices of known_cell. Of each of these: known_nearest
 (2) [m]: the vector to where walking ends if all zones are open, and known_clearance, its length; near_zone,
 near (2), grouped by near_start: the zones that it knows and the vectors to them. cut_link, grouped by zone:
-the links that it cuts, as rows of cut (cell, direction, cell that it leads to); cut_count: how many blocked
+the links that it cuts, as rows of cut (cell, direction, storey that it leads to); cut_count: how many blocked
 zones cut each. side_row, grouped by zone: the rows of the blockers that are its outline, and side (4): what
 they are if it is blocked.
 
@@ -132,8 +133,8 @@ def turn(switches, net, zone, blocked):
         at = switches.cut_link[i]
         switches.cut_count[at] += by
         cell, way = switches.cut[at, 0], switches.cut[at, 1]
-        to = np.int32(-1) if switches.cut_count[at] > 0 else switches.cut[at, 2]
-        switches.all_link[cell, way] = to
+        to = np.int32(APART) if switches.cut_count[at] > 0 else switches.cut[at, 2]
+        switches.all_storey[cell, way] = to
     for i in range(switches.side_start[zone], switches.side_start[zone + 1]):
         row = switches.side_row[i]
         for j in range(4):
@@ -282,7 +283,7 @@ def _put_together(switches, net, user, buckets, order):
         own = label[row_cell[row]]
         switches.kept_label[row] = own
         for d in range(4):
-            n = switches.all_link[row_cell[row], d]
+            n = linked(net, row_cell[row], d)
             if n >= 0 and label[n] != own and first <= switches.cell_row[n] < last:
                 switches.seam[first + seams] = row
                 seams += 1
@@ -293,17 +294,16 @@ def _put_together(switches, net, user, buckets, order):
 @kernel(error_model="numpy")
 def _claim(switches, net, user, node, k, x, y, radius):
     """Claim, for a piece about (x, y) in cell ``k``, what lies in it of the cells of the disc."""
-    link = net.link
     cx, cy = centre_of(net, k)
     for d in range(0, 3, 2):
         step = net.cell if d == 0 else -net.cell
-        spine = k if d == 0 else np.int64(link[k, 2])
+        spine = k if d == 0 else linked(net, k, 2)
         dx = cx - x if d == 0 else cx - x - net.cell
         while spine >= 0 and dx * dx <= radius * radius:
             _claim_line(switches, net, user, node, radius, spine, 1, dx, cy - y)
-            below = np.int64(link[spine, 3])
+            below = linked(net, spine, 3)
             _claim_line(switches, net, user, node, radius, below, 3, dx, cy - y - net.cell)
-            spine = np.int64(link[spine, d])
+            spine = linked(net, spine, d)
             dx += step
 
 
@@ -319,7 +319,7 @@ def _claim_line(switches, net, user, node, radius, c, d, dx, dy):
         if first <= row < last and score < switches.row_power[row] and net.clearance[c] <= radius:
             switches.row_power[row] = score
             switches.all_label[c] = node
-        c = np.int64(net.link[c, d])
+        c = linked(net, c, d)
         dy += step
 
 
@@ -330,7 +330,7 @@ def _join(switches, net, zone):
     edges = 0
     missed = np.zeros(256, np.int64)
     count = 0
-    label, link, pieces = switches.all_label, switches.all_link, switches.first_piece
+    label, pieces = switches.all_label, switches.first_piece
     for at_user in range(switches.user_start[zone], switches.user_start[zone + 1]):
         user = switches.user[at_user]
         if switches.turned[user] != switches.numbers[TURNS]:
@@ -342,7 +342,7 @@ def _join(switches, net, zone):
             if own < 0:
                 continue
             for d in range(4):
-                n = link[c, d]
+                n = linked(net, c, d)
                 other = np.int64(label[n]) if n >= 0 else own
                 if other == own or other < 0 or (own < pieces and other < pieces):
                     continue
@@ -410,7 +410,7 @@ def _roomier(met):
 def _measure(switches, net, zone, wanted):
     """Make, and keep, the edges of these keys (k,), which rise."""
     now = switches.numbers[TURNS]
-    label, link = switches.all_label, switches.all_link
+    label = switches.all_label
     key, pair, width = np.empty(256, np.int64), np.empty((256, 2), np.int32), np.empty(256)
     count = 0
     for at_user in range(switches.user_start[zone], switches.user_start[zone + 1]):
@@ -422,7 +422,7 @@ def _measure(switches, net, zone, wanted):
             if label[c] < 0:
                 continue
             for d in range(4):
-                n = np.int64(link[c, d])
+                n = linked(net, c, d)
                 if n < 0 or label[n] < 0 or label[n] == label[c]:
                     continue
                 first, second = (c, n) if label[c] < label[n] else (n, c)

@@ -16,6 +16,7 @@ from navmesh.disjoint_sets import root
 from navmesh.level.mesh_queries import MeshGrid, crossed, lowest_above
 from navmesh.obstacles.free_length import cells_of
 from navmesh.surface.floor_store import gradient_of, height_of
+from navmesh.surface.storeys import APART
 from runtime.playtest.floorplan import Allowance
 from runtime.playtest.openings import Barrier, Opening
 from runtime.playtest.site import Site
@@ -116,9 +117,10 @@ class Barriers:
         low, high, rise = _ledges(
             self.site.mesh_grid.arrays, cells_of(surface), surface.cell_column, rules.max_step, rules.headroom
         )
-        walked = [np.flatnonzero(surface.link[:, d] >= 0) for d in (0, 1)]
+        link = surface.link
+        walked = [np.flatnonzero(link[:, d] >= 0) for d in (0, 1)]
         source = np.concatenate([*walked, low])
-        target = np.concatenate([*(surface.link[cells, d] for d, cells in enumerate(walked)), high])
+        target = np.concatenate([*(link[cells, d] for d, cells in enumerate(walked)), high])
         rises = np.concatenate([np.zeros(len(source) - len(low)), rise])
         order = np.argsort(rises, kind="stable")
         return np.stack([source, target], axis=1)[order], rises[order]
@@ -174,7 +176,7 @@ def _ledges(grid, cells, cell_column, step, headroom):
 
     Returns (lower, higher (k,) int32, rise (k,) float64 [m], at their shared border).
     """
-    start, link, size, nx, ny = cells.column_start, cells.link, cells.size, cells.nx, cells.ny
+    start, storey, size, nx, ny = cells.column_start, cells.storey, cells.size, cells.nx, cells.ny
     most = 4 * len(cell_column)
     low = np.empty(most, np.int32)
     high = np.empty(most, np.int32)
@@ -187,12 +189,12 @@ def _ledges(grid, cells, cell_column, step, headroom):
         iy = column - ix * ny
         for d in range(2):
             jx, jy = (ix + 1, iy) if d == 0 else (ix, iy + 1)
-            if link[c, d] >= 0 or jx >= nx or jy >= ny:
+            if storey[c, d] != APART or jx >= nx or jy >= ny:
                 continue
             z = height_of(cells, c) + gradient_of(cells, c)[d] * half
             for n in range(start[jx * ny + jy], start[jx * ny + jy + 1]):
                 other = height_of(cells, n) - gradient_of(cells, n)[d] * half
-                if link[n, d + 2] >= 0 or abs(other - z) > HIGHEST or count >= most:
+                if storey[n, d + 2] != APART or abs(other - z) > HIGHEST or count >= most:
                     continue
                 a, b = (c, n) if other >= z else (n, c)
                 column_a, column_b = cell_column[a], cell_column[b]

@@ -132,7 +132,7 @@ def _narrowest(site: Site, cells: np.ndarray, ends: np.ndarray, start: int, end:
     near = cells[(np.abs(places - middle) <= (reach, reach, 1.0)).all(axis=1)]
     index = np.full(len(surface), -1)
     index[near] = np.arange(len(near))
-    link = surface.link[near]
+    link = surface.links(near)
     other = np.where(link >= 0, index[link], -1)
     one, way = np.nonzero(other >= 0)
     links = coo_array((np.ones(len(one)), (one, other[one, way])), shape=(len(near),) * 2)

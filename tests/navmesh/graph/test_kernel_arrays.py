@@ -15,7 +15,7 @@ def graph():
 def test_the_net_of_a_graph_is_made_once_of_its_own_arrays(graph):
     net = net_of(graph)
     assert net is net_of(graph)
-    assert net.clearance is graph.surface.clearance and net.link is graph.surface.link
+    assert net.clearance is graph.surface.clearance and net.storey is graph.surface.storey
     assert net.label is graph.label
     assert (net.nx, net.ny) == graph.surface.shape and net.cell == graph.surface.resolution
     assert np.array_equal(net.edge_target, graph.edge_target)

@@ -38,7 +38,7 @@ def test_of_rocks_on_a_plain(before, after):
     inner, window = columns(0), columns(8)
     fresh = find_cells(rocks(*after), RULES, grid, window)
     found = renew_clearance(
-        cells_of_surface(old), old.choice, fresh, inner, patch_around(grid, window), whole_patch(grid), 1.0
+        cells_of_surface(old), old.field, fresh, inner, patch_around(grid, window), whole_patch(grid), 1.0
     )
     assert found is not None
     left, near, right, far = found.window

@@ -8,6 +8,7 @@ import pytest
 from navmesh.graph.kernel_arrays import net_of
 from navmesh.graph.snapping import snap
 from navmesh.surface.clearance_field import FIELD, gap_at, stretch_gap, walk
+from navmesh.surface.storeys import APART
 from surefoot.kernels.bundles import Bundle
 from tests.navmesh.routes.path_references import (
     FIELD_ERROR,
@@ -68,15 +69,17 @@ def test_the_gap_to_a_wall_is_right_off_the_centres() -> None:
 def test_of_two_equally_near_blockers_the_first_counts_however_often_it_is_asked() -> None:
     """Zones give cells lists of their own, which say the same while these are open."""
     rng = np.random.default_rng(1)
-    link = np.array([[1, 2, -1, -1], [-1, -1, 0, -1], [-1, -1, -1, 0]], np.int32)
+    column = np.array([0, 1, 9], np.int32)  # the cell, and those beside it in +y and in +x
+    storey = np.full((3, 4), APART, np.uint8)
+    storey[0, 0] = storey[0, 1] = storey[1, 3] = storey[2, 2] = 0
     for off, ahead in rng.uniform(0.1, 0.9, (50, 2)):
-        blocker = np.repeat([[off, ahead], [-off, ahead], [off, ahead]], 2, axis=0).reshape(3, 4)
+        blocker = np.repeat([[off, ahead], [off, ahead], [-off, ahead]], 2, axis=0).reshape(3, 4)
         told = []
-        for source in ((0, 1, 0), (0, 1, 2)):
+        for source in ((0, 0, 2), (0, 1, 2)):
             field = Bundle(
-                FIELD, cell=0.25, ny=9, cell_column=np.zeros(3, np.int32), link=link,
-                nearest=np.zeros((3, 2)), clearance=np.ones(3), choice=np.zeros(3, np.uint8),
-                source=np.array(source, np.int32), blocker_start=np.arange(4, dtype=np.int32),
+                FIELD, cell=0.25, ny=9, column_start=np.searchsorted(column, np.arange(11)).astype(np.int32),
+                cell_column=column, storey=storey, nearest=np.zeros((3, 2)), clearance=np.ones(3),
+                choice=np.zeros(3, np.uint8), source=np.array(source, np.int32), blocker_start=np.arange(4, dtype=np.int32),
                 blocker=blocker,
             )  # fmt: skip
             told.append(stretch_gap(field, 0, -1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.05, 2.0))

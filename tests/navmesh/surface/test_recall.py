@@ -32,7 +32,7 @@ def _carried(surface, grid):
     nearest = nearest_blockers(surface.blocker_start, surface.blocker, surface.cell_column, patch)
     source = np.arange(len(surface), dtype=np.int32)
     clearance, _ = spread_clearance(
-        surface.column_start, surface.link, nearest, source, grid.resolution, nx, ny
+        surface.column_start, surface.cell_column, surface.storey, nearest, source, grid.resolution, nx, ny
     )
     for c in np.flatnonzero(clearance < 2.0 * grid.resolution):
         x, y = centre_of(surface.field, c)

@@ -6,6 +6,7 @@ import pytest
 from navmesh.level.raster import Patch
 from navmesh.surface.build import LinkedCells
 from navmesh.surface.splicing import renumber_run, splice
+from navmesh.surface.storeys import APART
 
 NX, NY = 4, 3
 
@@ -16,16 +17,16 @@ def cells(counts, first):
     start = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
     column = np.repeat(np.arange(NX * NY, dtype=np.int32), counts)
     storey = np.arange(len(column)) - start[column]
-    link = np.full((len(column), 4), -1, np.int32)
+    beside = np.full((len(column), 4), APART, np.uint8)
     for k, (c, s) in enumerate(zip(column, storey, strict=True)):
         for d, (dx, dy) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
             x, y = c // NY + dx, c % NY + dy
             if 0 <= x < NX and 0 <= y < NY and s < counts[x * NY + y]:
-                link[k, d] = start[x * NY + y] + s
+                beside[k, d] = s
     height = first + 100.0 * column + storey
     blockers = np.concatenate([[0], np.cumsum(storey)]).astype(np.int32)
     of = np.repeat(height, storey)
-    return LinkedCells(start, column, link, blockers, np.tile(of[:, None], 4))
+    return LinkedCells(start, column, beside, blockers, np.tile(of[:, None], 4))
 
 
 @pytest.mark.parametrize("window", [(1, 1, 3, 2), (0, 0, 4, 3), (2, 0, 4, 3), (1, 1, 1, 1)])
@@ -52,7 +53,7 @@ def test_inside_it_is_as_in_the_new_and_outside_as_in_the_old(window):
         np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
     # links from outside into the window are those of the old part, which knew as many storeys there as it had
     within = inside[found.cell_column]
-    np.testing.assert_array_equal(found.link[within], expected.link[within])
+    np.testing.assert_array_equal(found.storey[within], expected.storey[within])
 
 
 @pytest.mark.parametrize(

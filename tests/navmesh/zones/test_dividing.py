@@ -47,7 +47,7 @@ def test_rows_are_the_cells_of_discs_that_can_be_broken():
     at_rim = (linked & (beside != owner[:, None])).any(axis=1)
     assert set(users["rim"]) == set(np.flatnonzero(at_rim))
     assert (made.surface.clearance == graph.surface.clearance).all()
-    assert made.surface.link is not graph.surface.link
+    assert made.surface.storey is not graph.surface.storey
 
 
 def test_pieces_do_not_depend_on_the_order_in_which_zones_were_blocked():

@@ -5,12 +5,12 @@ import pytest
 
 from navmesh import NavmeshError, NodeGraph
 from navmesh.surface import strips
-from navmesh.surface.build import found_cells, lay_grid
+from navmesh.surface.build import find_cells, lay_grid
 from navmesh.surface.strips import all_cells
 from tests.navmesh.shapes import box, plane, terrain
 from tests.navmesh.surface.levels import RULES, random_level
 
-FIELDS = ("column_start", "cell_column", "link", "blocker_start", "blocker")
+FIELDS = ("column_start", "cell_column", "storey", "blocker_start", "blocker")
 
 
 @pytest.fixture
@@ -24,14 +24,14 @@ def narrow(monkeypatch):
 def test_strips_hold_the_cells_of_the_whole(seed, threads, narrow):
     level = terrain(*random_level(seed))
     grid = lay_grid(level.bounds, RULES, level.name)
-    whole, joined = found_cells(level, RULES, grid), all_cells(level, RULES, grid, threads)
+    whole, joined = find_cells(level, RULES, grid), all_cells(level, RULES, grid, threads)
     for name in FIELDS:
         expected, found = getattr(whole, name), getattr(joined, name)
         assert found.dtype == expected.dtype
         np.testing.assert_array_equal(found, expected, err_msg=name)
     height, gradient = joined.floor.unpacked(joined.column_start)
-    np.testing.assert_array_equal(height, whole.height)
-    np.testing.assert_array_equal(gradient, whole.gradient)
+    for found, expected in zip((height, gradient), whole.floor.unpacked(whole.column_start), strict=True):
+        np.testing.assert_array_equal(found, expected)
 
 
 def test_a_graph_with_obstacles_is_the_same_for_any_number_of_threads(narrow):

@@ -18,7 +18,7 @@ from navmesh.areas.roadmap_lines import line_of
 from navmesh.areas.roadmap_search import BEST as BEST_STOP
 from navmesh.areas.roadmap_search import EXPANDED, begin_trip, go_on
 from navmesh.graph.kernel_arrays import net_of
-from navmesh.routes.graph_search import BEST, COMPLETE, EMPTY, GOAL_NODE, LABELS, RUNNING
+from navmesh.routes.graph_search import BEST, COMPLETE, EMPTY, GOAL_NODE, RUNNING
 from navmesh.routes.query_kernels import GOAL_CELL, NEARER, START_CELL, start_search
 from navmesh.routes.route import STATUSES, Route, link_uses
 from navmesh.surface.clearance_field import centre_of, walk
@@ -104,7 +104,7 @@ def _start_trip(net, doors, road, trip, scratch, origin, sx, sy, sz, gx, gy, gz,
     if status > _PARTIAL:
         return status
     ends, numbers = scratch.ends, scratch.numbers
-    start_node, goal_node = numbers[BEST] // LABELS, numbers[GOAL_NODE]
+    start_node, goal_node = np.int64(scratch.node[numbers[BEST]]), numbers[GOAL_NODE]
     start_cell, goal_cell = numbers[START_CELL], numbers[GOAL_CELL]
     ax, ay, az, bx, by, bz = ends[0], ends[1], ends[2], ends[3], ends[4], ends[5]
     if road.forbids != 0:
@@ -154,9 +154,10 @@ def _end_trip(net, doors, road, trip, scratch, origin, gx, gy, gz):
                 numbers[_GOAL] = cell
                 node = net.label[start_cell]
                 expanded = numbers[EXPANDED]
+                first = np.int64(scratch.node[scratch.numbers[BEST]] if node < 0 else node)
                 begin_trip(
-                    net, doors, road, trip, scratch.numbers[BEST] // LABELS if node < 0 else np.int64(node),
-                    np.int64(net.label[cell]), start_cell, cell, ax, ay, az, bx, by, bz,
+                    net, doors, road, trip, first, np.int64(net.label[cell]), start_cell, cell,
+                    ax, ay, az, bx, by, bz,
                 )  # fmt: skip
                 state = go_on(road, trip, _WHOLE)
                 numbers[EXPANDED] += expanded

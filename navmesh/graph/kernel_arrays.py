@@ -1,8 +1,8 @@
 """The arrays that the search kernels read, bundled so that a call passes three arguments, not fifty.
 
 `NET` is the graph with its field of clearances, `DOORS` is what one body radius makes of it, and `SCRATCH` is
-the memory of one search at a time. What is read together lies together: a door, and what a search knows of a
-node, are one line of the cache each. All coordinates are relative to the surface's origin.
+the memory of one search at a time. What is read together lies together: a door is one line of the cache,
+and what a search knows of a node half of one. All coordinates are relative to the surface's origin.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -22,10 +22,11 @@ _NODE = np.dtype([("position", "f8", 3), ("node_radius", "f8")])
 _DOOR = np.dtype([("portal", "f8", 6), ("portal_cell", "i4", 2), ("target", "i4"), ("", "i4")])
 _LABEL = np.dtype(
     [
-        ("stamp", "i8"), ("cost", "f8"), ("total", "f8"), ("apex", "f8", 3), ("left", "f8", 3),
-        ("right", "f8", 3), ("parent", "i4"), ("via", "i4"), ("", "f8", 3),
+        ("cost", "f8"), ("total", "f8"), ("apex", "f8", 3), ("left", "f8", 3), ("right", "f8", 3),
+        ("node", "i4"), ("parent", "i4"), ("via", "i4"), ("", "f8", 3), ("", "i4"),
     ]
 )  # fmt: skip
+_SEEN = np.dtype([("stamp", "i8"), ("label", "i4", LABELS), ("label_total", "f8", LABELS)])
 
 NET = BundleType(
     cell=float64,
@@ -116,6 +117,7 @@ part; anywhere: the part that stands in tiles for those near zones, or -1; tile_
 SCRATCH = BundleType(
     numbers=int64[::1],
     ends=float64[::1],
+    seen=rows(_SEEN),
     labels=rows(_LABEL),
     heap_key=float64[::1],
     heap_item=int32[::1],
@@ -145,8 +147,9 @@ SCRATCH = BundleType(
 """Memory for one search at a time.
 
 numbers: the stamp of the current search and its counters, see `navmesh.routes.graph_search`; ends: start and
-goal. For each label (those of node i from LABELS * i on): stamp, the last search that made it; cost, total,
-apex, left, right (3), parent, via: the door, or the number of doors + leap. heap_key, heap_item: the open
+goal. For each node: stamp, the last search that came to it; label (LABELS): the numbers of its labels, or -1,
+and label_total, their totals. For each label: node, cost, total, apex, left, right (3), parent, via: the
+door, or the number of doors + leap. heap_key, heap_item: the open
 list; reached: for each part the last search that can get to it, part_stack: those still to be gone on from;
 nodes, edges: the chain found; points, cells: the corners pulled; corner, corner_at: those of the funnel; arc:
 those that round one of them; bend: those that lead a line round a place; trial, trial_cell: corners to be put
@@ -254,6 +257,7 @@ def make_scratch(graph: "NodeGraph") -> Any:
         SCRATCH,
         numbers=np.zeros(16, np.int64),
         ends=np.zeros(12),
+        seen=aligned(nodes, _SEEN),
         labels=aligned(labels, _LABEL),
         heap_key=np.empty(opened),
         heap_item=np.empty(opened, np.int32),

@@ -5,7 +5,8 @@ shortest line through the portals so far last turns, what that line costs up to 
 two corners between which the portal is seen from the apex. So the cost of a label is that of the pulled line
 and not of one through the middles of discs, and what is left is estimated by the shortest line out of the
 funnel to the goal. A node keeps the `LABELS` cheapest of those that lead into it: the cheapest can turn out
-to run into something that the portals do not know of.
+to run into something that the portals do not know of. Labels are numbered as they come up: what a search
+knows lies together, however far apart the numbers of its nodes are.
 
 Where nodes have costs, the line goes straight from where it crosses one portal to where it best crosses the
 next on the way to the goal, and each part is weighted by the node's factor. No factor is below 1, so the
@@ -43,6 +44,7 @@ LABELS = 2
 
 # Places in scratch.numbers
 _STAMP, _HEAP, _STATE, GOAL_NODE, BEST, EXPANDED = 0, 1, 2, 3, 4, 5
+_USED = 10  # labels
 LIMIT = 7
 """Place in scratch.ends: ways that cost so much [m] are not looked for."""
 _NEAREST = 6  # in scratch.ends: how near [m] to the goal a portal seen is
@@ -101,46 +103,60 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     numbers[_STATE] = RUNNING
     numbers[GOAL_NODE] = goal_node
     numbers[EXPANDED] = 0
-    label = LABELS * start_node
-    numbers[BEST] = label
+    numbers[_USED] = 1
+    numbers[BEST] = 0
     ends = scratch.ends
     ends[0], ends[1], ends[2] = sx, sy, sz
     ends[3], ends[4], ends[5] = gx, gy, gz
     rest = _distance(sx, sy, sz, gx, gy, gz)
     ends[_NEAREST] = rest
     ends[LIMIT] = 1e300
-    scratch.stamp[label] = numbers[_STAMP]
-    scratch.cost[label] = 0.0
-    scratch.total[label] = rest
+    _forget(scratch.stamp, scratch.label, numbers[_STAMP], start_node)
+    scratch.label[start_node, 0], scratch.label_total[start_node, 0] = 0, rest
+    scratch.node[0] = start_node
+    scratch.cost[0] = 0.0
+    scratch.total[0] = rest
     for corner in (scratch.apex, scratch.left, scratch.right):
-        corner[label, 0], corner[label, 1], corner[label, 2] = sx, sy, sz
-    scratch.parent[label] = -1
-    scratch.via[label] = -1
+        corner[0, 0], corner[0, 1], corner[0, 2] = sx, sy, sz
+    scratch.parent[0] = -1
+    scratch.via[0] = -1
     scratch.heap_key[0] = rest
-    scratch.heap_item[0] = label
+    scratch.heap_item[0] = 0
 
 
 @kernel(error_model="numpy", inline="always")
-def _free_label(seen, totals, stamp, node, total):
-    """The place for a label of ``node`` that costs ``total``: one that is free, or the dearest if that is
-    dearer; -1 where there is none, or one that costs the same."""
+def _forget(seen, labels, stamp, node):
+    """Take from ``node`` the labels of searches before."""
+    if seen[node] != stamp:
+        seen[node] = stamp
+        for i in range(LABELS):
+            labels[node, i] = -1
+
+
+@kernel(error_model="numpy", inline="always")
+def _place_for(seen, labels, totals, stamp, node, total):
+    """Which of the labels of ``node`` one that costs ``total`` can be: one that is free, or the dearest if
+    that is dearer; -1 where there is none, or one that costs the same."""
     place = -1
     most = total + _SAME
-    for label in range(LABELS * node, LABELS * node + LABELS):
-        if seen[label] != stamp:
-            return label
-        if abs(totals[label] - total) <= _SAME:
+    _forget(seen, labels, stamp, node)
+    for i in range(LABELS):
+        if labels[node, i] < 0:
+            return i
+        if abs(totals[node, i] - total) <= _SAME:
             return -1
-        if totals[label] > most:
-            place, most = label, totals[label]
+        if totals[node, i] > most:
+            place, most = i, totals[node, i]
     return place
 
 
 @kernel(error_model="numpy", inline="always")
-def _is_done(seen, totals, stamp, node, key):
+def _is_done(seen, labels, totals, stamp, node, key):
     """Whether no label that costs ``key`` or more has a place at ``node``."""
-    for label in range(LABELS * node, LABELS * node + LABELS):
-        if seen[label] != stamp or totals[label] > key:
+    if seen[node] != stamp:
+        return False
+    for i in range(LABELS):
+        if labels[node, i] < 0 or totals[node, i] > key:
             return False
     return True
 
@@ -156,13 +172,15 @@ def advance(net, doors, scratch, budget):
     goal_node = numbers[GOAL_NODE]
     gx, gy, gz = scratch.ends[3], scratch.ends[4], scratch.ends[5]
     # arrays taken out of their bundle in a loop are counted as used each time
-    seen, costs, totals = scratch.stamp, scratch.cost, scratch.total
-    parent, via = scratch.parent, scratch.via
+    seen, labels, label_total = scratch.stamp, scratch.label, scratch.label_total
+    nodes, costs, totals = scratch.node, scratch.cost, scratch.total
+    parent, via, used = scratch.parent, scratch.via, numbers[_USED]
     apex, left, right = scratch.apex, scratch.left, scratch.right
     door_start, leap_start = doors.start, doors.leap_start
     keys, items, size = scratch.heap_key, scratch.heap_item, numbers[_HEAP]
     portal, targets, node_cost = doors.portal, doors.target, doors.node_cost
     weighted = doors.weighted != 0
+    leaps = doors.leap_id.size > 0
     doors_count = targets.size
     head, following = doors.head, doors.following
     slots = following.size
@@ -178,7 +196,7 @@ def advance(net, doors, scratch, budget):
         size -= 1
         if key > totals[label]:
             continue  # another label has taken its place
-        node = label // LABELS
+        node = np.int64(nodes[label])
         if node == goal_node:
             numbers[BEST] = label
             state = COMPLETE
@@ -194,8 +212,8 @@ def advance(net, doors, scratch, budget):
         if rest < nearest:
             nearest = rest
             numbers[BEST] = label
-        before = parent[label] // LABELS
-        factor = node_cost[node]
+        before = nodes[parent[label]] if parent[label] >= 0 else -1
+        factor = node_cost[node] if weighted else 1.0
         on, last = door_start[node], door_start[node + 1]
         more = head[node] if slots > 0 else -1
         while on < last or more >= 0:
@@ -209,7 +227,7 @@ def advance(net, doors, scratch, budget):
             if target < 0:
                 continue
             # nothing that goes on from here costs less than the key
-            if target == before or _is_done(seen, totals, stamp, target, key):
+            if target == before or _is_done(seen, labels, label_total, stamp, target, key):
                 continue
             plx, ply, plz = portal[door, 0], portal[door, 1], portal[door, 2]
             prx, pry, prz = portal[door, 3], portal[door, 4], portal[door, 5]
@@ -236,16 +254,23 @@ def advance(net, doors, scratch, budget):
                         prx, pry, prz = rx, ry, rz
                 rest = _out_of_funnel(nax, nay, naz, plx, ply, plz, prx, pry, prz, gx, gy, gz)
             total = max(spent + rest, key)
-            slot = _free_label(seen, totals, stamp, target, total)
-            if slot < 0:
+            place = _place_for(seen, labels, label_total, stamp, target, total)
+            if place < 0:
                 continue
-            seen[slot] = stamp
-            costs[slot], totals[slot], parent[slot], via[slot] = spent, total, label, door
+            slot = np.int64(labels[target, place])
+            if slot < 0:
+                slot = used
+                used += 1
+            labels[target, place], label_total[target, place] = slot, total
+            nodes[slot], costs[slot], totals[slot] = target, spent, total
+            parent[slot], via[slot] = label, door
             apex[slot, 0], apex[slot, 1], apex[slot, 2] = nax, nay, naz
             left[slot, 0], left[slot, 1], left[slot, 2] = plx, ply, plz
             right[slot, 0], right[slot, 1], right[slot, 2] = prx, pry, prz
             push(keys, items, size, total, slot)
             size += 1
+        if not leaps:
+            continue
         own = doors.whole[node]
         for leap in range(leap_start[own], leap_start[own + 1]):
             target = net.label[doors.leap_to_cell[leap]]
@@ -259,16 +284,21 @@ def advance(net, doors, scratch, budget):
             if target == goal_node:
                 rest *= node_cost[target]
             total = max(spent + rest, key)
-            slot = _free_label(seen, totals, stamp, target, total)
-            if slot < 0:
+            place = _place_for(seen, labels, label_total, stamp, target, total)
+            if place < 0:
                 continue
-            seen[slot] = stamp
-            costs[slot], totals[slot], parent[slot], via[slot] = spent, total, label, doors_count + leap
+            slot = np.int64(labels[target, place])
+            if slot < 0:
+                slot = used
+                used += 1
+            labels[target, place], label_total[target, place] = slot, total
+            nodes[slot], costs[slot], totals[slot] = target, spent, total
+            parent[slot], via[slot] = label, doors_count + leap
             for corner in (apex, left, right):
                 corner[slot, 0], corner[slot, 1], corner[slot, 2] = tx, ty, tz
             push(keys, items, size, total, slot)
             size += 1
-    numbers[_HEAP] = size
+    numbers[_HEAP], numbers[_USED] = size, used
     numbers[_STATE] = state
     scratch.ends[_NEAREST] = nearest
     return state
@@ -287,11 +317,11 @@ def chain(scratch):
 
     edges[i] leads into nodes[i]; edges[0] is -1; from the number of doors on they are leaps.
     """
-    nodes, edges, parent, via = scratch.nodes, scratch.edges, scratch.parent, scratch.via
+    nodes, edges, parent, via, node = scratch.nodes, scratch.edges, scratch.parent, scratch.via, scratch.node
     count = 0
     label = scratch.numbers[BEST]
     while label >= 0:
-        nodes[count] = label // LABELS
+        nodes[count] = node[label]
         edges[count] = via[label]
         count += 1
         label = parent[label]

@@ -408,7 +408,7 @@ class Animal:
         yaw, ground = first_heading(trail, self.body), self.herd.ground
 
         def leads_on(there: Place) -> bool:
-            return has_way(self.planner, self.body, ground, self._errand.goals, there)
+            return has_way(self.planner, self._errand.goals, there)
 
         script = turn_script(self.body, ground, place, yaw, self._look_around(), leads_on)
         if script is None:

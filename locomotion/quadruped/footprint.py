@@ -48,6 +48,8 @@ __all__ = [
     "script_places",
     "stopping_distance",
     "touches",
+    "trail_arcs",
+    "trail_place",
     "trail_places",
 ]
 
@@ -84,15 +86,22 @@ def script_places(script: Script, body: Body) -> NDArray[np.float64]:
 
 def trail_places(trail: Trail, body: Body, start: float, end: float) -> NDArray[np.float64]:
     """(k, 5) x, y, z, yaw, bend of a body whose root goes from arc length ``start`` to ``end`` [m]."""
-    count = max(int(abs(end - start) * _ASSUMED_SPEED / RESOLUTION), 1) + 1
-    bend = math.radians(body.spine.max_bend_deg)
-    places = np.empty((count, 5))
-    for k, arc in enumerate(np.linspace(start, end, count)):
-        places[k] = on_trail(
-            trail.rows, 0, len(trail.rows), trail.step, arc, arc + body.spine.length, body.spine.bones,
-            body.spine.bone_length, body.spine.flex, bend,
-        )[:5]  # fmt: skip
-    return places
+    return np.array([trail_place(trail, body, arc) for arc in trail_arcs(start, end).tolist()])
+
+
+def trail_arcs(start: float, end: float) -> NDArray[np.float64]:
+    """(k,) [m] arc lengths of `trail_places`."""
+    return np.linspace(start, end, max(int(abs(end - start) * _ASSUMED_SPEED / RESOLUTION), 1) + 1)
+
+
+def trail_place(trail: Trail, body: Body, arc: float) -> NDArray[np.float64]:
+    """(5,) x, y, z, yaw, bend of a body whose root is at an arc length [m]."""
+    spine = body.spine
+    place = on_trail(
+        trail.rows, 0, len(trail.rows), trail.step, arc, arc + spine.length, spine.bones, spine.bone_length,
+        spine.flex, math.radians(spine.max_bend_deg),
+    )  # fmt: skip
+    return np.array(place[:5])
 
 
 def _densified(rows: NDArray[np.float64], body: Body) -> NDArray[np.float64]:
@@ -107,16 +116,22 @@ def _densified(rows: NDArray[np.float64], body: Body) -> NDArray[np.float64]:
 
 def fronts(places: NDArray[np.float64], body: Body) -> NDArray[np.float64]:
     """(k, 2) [m] the front feet's midpoint at ``places`` (k, 5)."""
-    bones, bone = body.spine.bones, body.spine.bone_length
-    return np.array([front_of(x, y, yaw, bend, bones, bone) for x, y, _, yaw, bend in places])
+    out = np.empty((len(places), 2))
+    _write_fronts(np.ascontiguousarray(places), body.spine.bones, body.spine.bone_length, out)
+    return out
 
 
 def key_balls(places: NDArray[np.float64], body: Body, front_z: NDArray[np.float64] | None = None) -> _Balls:
     """The balls of `PARTS` at ``places`` (k, 5): x, y, z, yaw, bend; z is the ground's under the root [m],
     ``front_z`` (k,) that under the front feet, by default the same."""
+    return _balls_at(places, body, fronts(places, body), places[:, 2] if front_z is None else front_z)
+
+
+def _balls_at(
+    places: NDArray[np.float64], body: Body, front: NDArray[np.float64], own_z: NDArray[np.float64]
+) -> _Balls:
+    """`key_balls` whose front feet are at ``front`` (k, 2), on ground at ``own_z`` (k,) [m]."""
     x, y, z, yaw, bend = places.T
-    own_z = z if front_z is None else front_z
-    front = fronts(places, body)
     chest = yaw + body.spine.bones * bend
     rise, drop = math.radians(body.neck.rise_deg), math.radians(body.head.drop_deg)
     ahead = body.neck.length * math.cos(rise) + 0.5 * body.head.length * math.cos(drop)
@@ -138,12 +153,13 @@ def check_places(places: NDArray[np.float64], body: Body, ground: Ground, margin
     """Whether the body fits at all ``places`` (k, 5): x, y, z, yaw, bend, with ``margin`` [m] to spare."""
     reach = body.movement.step + body.spine.length * math.tan(math.radians(body.movement.slope_deg))
     root_z = _ground_at(ground, places[:, :2], places[:, 2], 0.5 * reach + body.movement.step)
-    front_z = _ground_at(ground, fronts(places, body), places[:, 2], reach)
+    front = fronts(places, body)
+    front_z = _ground_at(ground, front, places[:, 2], reach)
     lost = np.flatnonzero(~(np.isfinite(root_z) & np.isfinite(front_z)))
     until = int(lost[0]) if len(lost) else len(places)
     if until > 0:
         standing = np.column_stack([places[:until, :2], root_z[:until], places[:until, 3:]])
-        balls = key_balls(standing, body, front_z[:until])
+        balls = _balls_at(standing, body, front[:until], front_z[:until])
         index, part = _first_touch(
             kernel_ground(ground),
             ground.arrays.cell_range,
@@ -186,6 +202,12 @@ def stopping_distance(body: Body, speed: float) -> float:
 def at_place(place: Place) -> NDArray[np.float64]:
     """(1, 5) for `check_places`."""
     return np.array([[place.x, place.y, place.z, place.yaw, place.bend]])
+
+
+@kernel
+def _write_fronts(places, bones, bone, out):
+    for k in range(places.shape[0]):
+        out[k] = front_of(places[k, 0], places[k, 1], places[k, 3], places[k, 4], bones, bone)
 
 
 @kernel

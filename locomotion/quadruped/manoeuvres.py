@@ -25,7 +25,7 @@ from locomotion.quadruped.script import Place, Script, joined
 from locomotion.quadruped.trail import Trail, kernel_ground
 from surefoot.kernels import kernel
 
-__all__ = ["find_manoeuvre"]
+__all__ = ["find_manoeuvre", "prepare_moves"]
 
 _CELLS = 8  # places in a body's length
 _HEADINGS = 16  # in a full turn
@@ -70,6 +70,12 @@ def _moves_for(body_json: str) -> _Moves:
     first = np.concatenate([[0], np.cumsum([len(each) for each in samples])])
     seconds = np.array([script.seconds for script in scripts])
     return _Moves(moves, seconds, first, np.concatenate(samples))
+
+
+def prepare_moves(body: Body) -> None:
+    """Make what turns and manoeuvres of ``body`` look up. It takes a second for each kind, once in a process,
+    which its first turn would have to wait for."""
+    _moves_for(body.model_dump_json())
 
 
 class _Reached(NamedTuple):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,10 +62,14 @@ class Script:
         )
 
 
+@lru_cache(maxsize=64)
 def smooth_shares(begin: float = 0.0, end: float = 1.0) -> NDArray[np.float64]:
-    """(ROWS,) from 0 to 1, moving between two shares of the time, with neither speed nor push at its ends."""
+    """(ROWS,) from 0 to 1, moving between two shares of the time, with neither speed nor push at its ends.
+    Read-only."""
     u = np.clip((np.linspace(0.0, 1.0, ROWS) - begin) / (end - begin), 0.0, 1.0)
-    return u**3 * (10.0 + u * (6.0 * u - 15.0))
+    shares = u**3 * (10.0 + u * (6.0 * u - 15.0))
+    shares.setflags(write=False)
+    return shares
 
 
 def make_script(

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicSpline
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
 from locomotion.errors import LocomotionError
@@ -18,6 +17,7 @@ from locomotion.ground.ground import Ground, height_below
 from locomotion.paths.tracking import checked_points
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
+from locomotion.quadruped.cubic_spline import along_spline, length_along, natural_spline
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["NoTrail", "Trail", "kernel_ground", "lay_trail", "trail_at", "trail_point", "trail_speed"]
@@ -68,14 +68,15 @@ def lay_trail(points: ArrayLike, body: Body, ground: Ground) -> Trail:
     """
     knots = _subdivided(checked_points(points))
     arc = _arc(knots)
-    spline = CubicSpline(arc, knots[:, :2], bc_type="natural")
+    pieces = natural_spline(arc, knots[:, :2])
     fine = np.linspace(0.0, arc[-1], max(round(arc[-1] / 0.005), 16))
-    along = _arc(spline(fine))
+    along = np.empty(len(fine))
+    length_along(arc, pieces, fine, along)
     count = max(int(np.ceil(along[-1] / SPACING)), 2) + 1
     where = np.interp(np.linspace(0.0, along[-1], count), along, fine)
-    rows = np.zeros((count, at.ROW))
-    rows[:, at.PX : at.PY + 1] = spline(where)
-    first, second = spline(where, 1), spline(where, 2)
+    rows, (place, first, second) = np.zeros((count, at.ROW)), np.empty((3, count, 2))
+    along_spline(arc, pieces, where, place, first, second)
+    rows[:, at.PX : at.PY + 1] = place
     speed = np.linalg.norm(first, axis=1)
     rows[:, at.PCOS : at.PSIN + 1] = first / speed[:, None]
     rows[:, at.PHEADING] = np.unwrap(np.arctan2(first[:, 1], first[:, 0]))

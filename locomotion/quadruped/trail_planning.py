@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from locomotion.ground.ground import Ground
 from locomotion.quadruped.body import Body
 from locomotion.quadruped.body_on_path import wrap
-from locomotion.quadruped.footprint import check_places, trail_places
+from locomotion.quadruped.footprint import check_places, trail_arcs, trail_place
 from locomotion.quadruped.script import Place
 from locomotion.quadruped.trail import Trail, lay_trail
 
@@ -29,13 +29,17 @@ class Way(Protocol):
 
 
 class Planner(Protocol):
-    """A planner: `way` for paths, `room_to_turn` for places."""
+    """A planner: `way` for paths, `leads` for whether there is one, `room_to_turn` for places."""
 
     def way(
         self, start: NDArray[np.float64], goal: NDArray[np.float64], direction: NDArray[np.float64]
     ) -> Way:
         """The way from ``start`` to ``goal`` (3,) [m] for one that moves or faces in ``direction`` (2,).
         Raises ValueError if there is none."""
+        ...
+
+    def leads(self, start: NDArray[np.float64], goal: NDArray[np.float64]) -> bool:
+        """Whether there is a `way` from ``start`` to ``goal`` (3,) [m]."""
         ...
 
     def room_to_turn(self, points: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
@@ -97,9 +101,7 @@ def first_heading(trail: Trail, body: Body) -> float:
 
 def last_free_arc(trail: Trail, body: Body, ground: Ground, end: float) -> float:
     """[m] where the root stops: at ``end`` [m], or before it if head or shoulders have no room there."""
-    places = trail_places(trail, body, end, end - min(body.length, end))
-    arcs = np.linspace(end, end - min(body.length, end), len(places))
-    for arc, place in zip(arcs, places, strict=True):
-        if check_places(place[None], body, ground).free:
-            return float(arc)
+    for arc in trail_arcs(end, end - min(body.length, end)).tolist():
+        if check_places(trail_place(trail, body, arc)[None], body, ground).free:
+            return arc
     return end

@@ -14,7 +14,7 @@ from locomotion.ground.ground import Ground
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.body import Body
 from locomotion.quadruped.body_on_path import wrap
-from locomotion.quadruped.footprint import RESOLUTION, check_script, trail_places
+from locomotion.quadruped.footprint import RESOLUTION, check_script, trail_place
 from locomotion.quadruped.local_motion import REACH, local_motion
 from locomotion.quadruped.script import Place, Script, joined
 from locomotion.quadruped.trail import Trail, lay_trail
@@ -138,21 +138,15 @@ def way_back(
     middles = np.array([trail.point(arc + 0.5 * body.spine.length) for arc in arcs])
     roomy = arcs[planner.room_to_turn(np.column_stack([middles, heights]), body.length)]
     for arc in roomy[:_LOOK_BACK]:
-        there = Place(*trail_places(trail, body, arc, arc)[0].tolist())
+        there = Place(*trail_place(trail, body, float(arc)).tolist())
         if can_set_out(planner, body, ground, goals, there):
             return WayBack(trail, here, float(arc))
     return None
 
 
-def has_way(
-    planner: Planner, body: Body, ground: Ground, goals: Sequence[tuple[float, float, float]], there: Place
-) -> bool:
-    """Whether a way leads from ``there`` to ``goals``."""
-    try:
-        find_way(planner, body, ground, goals, there)
-    except ValueError:
-        return False
-    return True
+def has_way(planner: Planner, goals: Sequence[tuple[float, float, float]], there: Place) -> bool:
+    """Whether a way leads from ``there`` to the first of ``goals``, so that `find_way` finds one."""
+    return planner.leads(np.array([there.x, there.y, there.z]), np.array(goals[0]))
 
 
 def can_set_out(
@@ -167,6 +161,6 @@ def can_set_out(
         return True
 
     def leads_on(place: Place) -> bool:
-        return has_way(planner, body, ground, goals, place)
+        return has_way(planner, goals, place)
 
     return turn_script(body, ground, there, first_heading(trail, body), leads_on=leads_on) is not None

@@ -21,13 +21,23 @@ from locomotion.quadruped import (
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.course_for_others import head_length
 from locomotion.quadruped.footprint import at_place
+from locomotion.quadruped.manoeuvres import prepare_moves
 from locomotion.quadruped.saved_state_check import check_animal
 from runtime.bodies.animal_figure import animal_figure
 from runtime.bodies.pose import between
 from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
-from runtime.planning.planning import Beginning, NoWay, Plan, make_plan, way_holds
+from runtime.planning.planning import (
+    Beginning,
+    NoWay,
+    Plan,
+    Way,
+    find_way,
+    make_plan,
+    pulled_plan,
+    way_holds,
+)
 from runtime.traffic.traffic import Traffic
 
 __all__ = ["AnimalDriver", "Pack"]
@@ -62,6 +72,7 @@ class Pack(Population):
         return driver
 
     def _add(self, index: int) -> "AnimalDriver":
+        prepare_moves(self._herd.bodies[index])
         self._drivers.append(AnimalDriver(self._level, self._herd, index, self._before, self._traffic))
         return self._drivers[-1]
 
@@ -121,6 +132,14 @@ class _Ways:
 
     def way(self, start: np.ndarray, goal: np.ndarray, direction: np.ndarray) -> Plan:
         return self.through(start, goal[None], direction)
+
+    def leads(self, start: np.ndarray, goal: np.ndarray) -> bool:
+        route = self._level.graph.find_path(start, goal, radius=self._body.radius)
+        return route.status == "complete" and len(route.waypoints) > 1
+
+    def routes(self, start: np.ndarray, goals: np.ndarray) -> Way:
+        """What `through` smooths. Raises `NoWay` where that does."""
+        return find_way(self._level.graph, Beginning(start), list(goals), self._body.radius, {})
 
     def room_to_turn(self, points: np.ndarray, length: float) -> np.ndarray:
         return self._level.graph.room_to_turn(points, length)
@@ -199,7 +218,7 @@ class AnimalDriver(Driver):
         return self._ways.through(self.animal.position, goals)
 
     def go_to(self, goals: np.ndarray, speed: float, facing: float | None) -> Plan:
-        plan = self.plan(goals)
+        way, before = self._ways.routes(self.animal.position, goals), self._followed
         try:
             self.animal.go_to(goals, speed, facing)
         except NoTrail as error:
@@ -207,7 +226,7 @@ class AnimalDriver(Driver):
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
         self.take_note()
-        return plan
+        return pulled_plan(way) if self._followed is before else self.plans[-1]
 
     @property
     def goals_left(self) -> int:

@@ -21,6 +21,9 @@ class GraphPlanner:
             raise ValueError(route.status)
         return smooth_route(route, DOG.smoothing, direction)
 
+    def leads(self, start, goal):
+        return self.graph.find_path(start, goal, radius=DOG.radius).status == "complete"
+
     def room_to_turn(self, points, length):
         return self.graph.room_to_turn(points, length)
 

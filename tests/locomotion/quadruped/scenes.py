@@ -54,6 +54,9 @@ class Straight:
     def way(self, start, goal, direction) -> SmoothPath:
         return SmoothPath(np.stack([start, goal]) if self.line is None else self.line, (), True)
 
+    def leads(self, start, goal):
+        return True
+
     def room_to_turn(self, points, length):
         return np.ones(len(points), bool)
 

@@ -1,11 +1,14 @@
 """Dogs, cats and horses in worlds and missions."""
 
+from importlib import import_module
 from importlib.resources import files
 
 import numpy as np
 import pytest
 
 import navmesh
+import pathsmooth
+from locomotion.quadruped import manoeuvres
 from runtime import Arrived, Blocked, Departed, RuntimeInputError, World
 from runtime.missions.check import prepare_mission
 from runtime.missions.mission import load_mission
@@ -29,6 +32,39 @@ def test_a_dog_goes_where_it_is_told(graph):
     assert dog.position == pytest.approx([9.0, 4.0, 0.0], abs=0.02)
     assert dog.facing == pytest.approx(1.0, abs=0.03)
     assert dog.plans and dog.progress == pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.parametrize("facing", [0.0, 3.0])
+def test_a_path_is_smoothed_once_for_an_order(graph, monkeypatch, facing):
+    """That takes long; who faces away asks only for a route from where it will have turned."""
+    smoothed, tightening = [], pathsmooth.tightening
+    monkeypatch.setattr(
+        pathsmooth, "tightening", lambda *problem: (smoothed.append(1), tightening(*problem))[1]
+    )
+    world = World(graph)
+    dog = world.spawn("dog", (2.0, 3.0, 0.0), facing)
+    dog.go_to((9.0, 4.0, 0.0), speed=1.5)
+    assert len(smoothed) == 1
+    told = world.events[0]
+    assert isinstance(told, Departed)
+    assert told.length == pytest.approx(np.hypot(7.0, 1.0), rel=0.05)
+    assert dog.go_to((200.0, 4.0, 0.0)) == "blocked" and isinstance(world.events[-1], Blocked)
+    assert len(smoothed) == 1
+
+
+def test_no_order_waits_for_the_tables_of_turns(graph, monkeypatch):
+    """They are made when the first dog is spawned."""
+    local_motion = import_module("locomotion.quadruped.local_motion")  # not the function of that name
+    local_motion._table_for.cache_clear()
+    manoeuvres._moves_for.cache_clear()
+    solved, solve = [], local_motion._solve
+    monkeypatch.setattr(local_motion, "_solve", lambda *wanted: (solved.append(1), solve(*wanted))[1])
+    world = World(graph)
+    dog = world.spawn("dog", (2.0, 3.0, 0.0), 3.0)
+    assert len(solved) == 1 and manoeuvres._moves_for.cache_info().currsize == 1
+    dog.go_to((9.0, 4.0, 0.0), speed=1.5)
+    world.step(0.1)
+    assert len(solved) == 1
 
 
 def test_a_person_and_animals_share_a_world(graph):

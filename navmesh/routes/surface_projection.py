@@ -32,8 +32,12 @@ def _drape(net, path, spacing):
         parts = max(1, ceil(sqrt((bx - ax) ** 2 + (by - ay) ** 2) / spacing))
         for j in range(1, parts + 1):
             px, py = ax + (bx - ax) * j / parts, ay + (by - ay) * j / parts
-            k = walk(net, k, x, y, px, py, 0.0, True)[1]
-            points[at, 0], points[at, 1], points[at, 2] = px, py, floor_at(net, k, px, py)
+            points[at, 0], points[at, 1] = px, py
+            if k >= 0:
+                k = walk(net, k, x, y, px, py, 0.0, True)[1]
+                points[at, 2] = floor_at(net, k, px, py)
+            else:  # it begins where there is no floor
+                points[at, 2] = path[i - 1, 2] + (path[i, 2] - path[i - 1, 2]) * j / parts
             x, y = px, py
             at += 1
         points[at - 1, 2] = path[i, 2]
@@ -45,7 +49,8 @@ def project_to_surface(graph: "NodeGraph", waypoints: np.ndarray, spacing: float
     """Points (n, 3) [m] on the surface along the walked path ``waypoints`` (k, 3), at most ``spacing`` [m]
     apart.
 
-    The corners are among them. ``spacing`` is horizontal.
+    The corners are among them. ``spacing`` is horizontal. Behind a corner without a floor they lie straight
+    between it and the next one.
     """
     origin = graph.surface.origin
     return _drape(net_of(graph), np.ascontiguousarray(waypoints - origin), spacing) + origin
@@ -57,14 +62,18 @@ def _drape_curve(net, curve, points):
     k = cell_at(net, x, y, curve[0, 2])
     for i in range(1, curve.shape[0]):
         px, py = curve[i, 0], curve[i, 1]
-        k = walk(net, k, x, y, px, py, 0.0, True)[1]
-        points[i, 2] = floor_at(net, k, px, py)
+        if k >= 0:
+            k = walk(net, k, x, y, px, py, 0.0, True)[1]
+            points[i, 2] = floor_at(net, k, px, py)
+        else:  # there is no floor where it begins
+            k = cell_at(net, px, py, curve[i, 2])
         x, y = px, py
 
 
 def project_curve_to_surface(graph: "NodeGraph", curve: np.ndarray) -> np.ndarray:
     """The points (n, 3) [m] of a ``curve`` (n, 3) that is walked from its first point, on the surface; only
-    the first one's height counts."""
+    the first one's height counts. Where it begins off the surface, its points keep their heights up to the
+    first that is on it."""
     origin = graph.surface.origin
     points = np.ascontiguousarray(curve - origin)
     _drape_curve(net_of(graph), points.copy(), points)

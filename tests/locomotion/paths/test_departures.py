@@ -77,3 +77,13 @@ def test_a_way_can_be_begun_that_leads_on_and_bends_late():
         bent[after, 1] = bent[after, 0] - straight_for
         bent[after, 0] = straight_for
         assert can_begin(bent, velocity, LIMITS) == can
+
+
+@pytest.mark.parametrize("place", [[-10.9, 0.0, 0.0], [-40.0, 0.0, 0.0], [0.0, 30.0, 0.0]])
+def test_who_has_left_the_level_has_no_bend_back(place):
+    """It has run over the edge, where no floor is: asking ended the process."""
+    hall, velocity = floor_of(-10, -2, 2, 2), np.array([-3.5, 0.0])
+    for target in ([0.0, 1.0, 0.0], [-60.0, 4.0, 0.0]):
+        assert not any(
+            runs_on for _, runs_on in leads(hall, np.array(place), velocity, np.array(target), LIMITS, 0.3)
+        )

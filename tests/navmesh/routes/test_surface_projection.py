@@ -36,3 +36,16 @@ def test_a_curve_keeps_its_points_and_gets_their_heights(hill):
     assert found[:, 2] == pytest.approx(height(curve[:, 0]), abs=0.03)
     below = project_curve_to_surface(hill, curve - [0.0, 0.0, 3.25])
     assert below[:, 2] == pytest.approx(-3.0)
+
+
+def test_what_begins_beside_the_level_keeps_its_heights_until_it_is_on_it(hill):
+    """Beside all cells, on all sides, and in a square of the grid without a cell: it ended the process."""
+    for beside in ([-9.0, 1.0, 0.7], [99.0, 1.0, 0.7], [4.0, -50.0, 0.7], [4.0, 50.0, 0.7], [8.2, 1.0, 0.7]):
+        curve = np.array([beside, [2.0, 2.0, 0.4], [4.0, 2.0, 9.0], [6.0, 2.0, -9.0]])
+        found = project_curve_to_surface(hill, curve)
+        assert found[:2] == pytest.approx(curve[:2])
+        assert found[2:, 2] == pytest.approx(height(curve[2:, 0]), abs=0.03)
+        points = project_to_surface(hill, curve[[0, 1, 3]] * [1.0, 1.0, 0.5], 0.5)
+        onto = np.flatnonzero((np.abs(points[:, :2] - curve[1, :2]) < 1e-9).all(axis=1))[0]
+        assert points[:onto, 2] == pytest.approx(np.interp(np.arange(onto), [0, onto], [0.35, 0.2]))
+        assert points[onto + 1 : -1, 2] == pytest.approx(height(points[onto + 1 : -1, 0]), abs=0.03)

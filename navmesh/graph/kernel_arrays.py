@@ -148,14 +148,14 @@ SCRATCH = BundleType(
 
 numbers: the stamp of the current search and its counters, see `navmesh.routes.graph_search`; ends: start and
 goal. For each node: stamp, the last search that came to it; label (LABELS): the numbers of its labels, or -1,
-and label_total, their totals. For each label: node, cost, total, apex, left, right (3), parent, via: the
-door, or the number of doors + leap. heap_key, heap_item: the open
-list; reached: for each part the last search that can get to it, part_stack: those still to be gone on from;
-nodes, edges: the chain found; points, cells: the corners pulled; corner, corner_at: those of the funnel; arc:
-those that round one of them; bend: those that lead a line round a place; trial, trial_cell: corners to be put
-in the place of one; kept, kept_nodes, kept_leaps: the best line so far; saved, saved_cell: corners to go
-back to; stack, stack_cell: corners still to be reached; cell_stamp, cell_best, cell_parent: what
-`navmesh.routes.cell_search` knows of each cell.
+and label_total, their totals, or inf. For each label: node, cost, total, apex, left, right (3), parent, via:
+the door, or the number of doors + leap. heap_key, heap_item: the open list; reached: for each part the last
+search that can get to it, part_stack: those still to be gone on from; nodes, edges: the chain found; points,
+cells: the corners pulled; corner, corner_at: those of the funnel; arc: those that round one of them; bend:
+those that lead a line round a place; trial, trial_cell: corners to be put in the place of one; kept,
+kept_nodes, kept_leaps: the best line so far; saved, saved_cell: corners to go back to; stack, stack_cell:
+corners still to be reached; cell_stamp, cell_best, cell_parent: what `navmesh.routes.cell_search` knows of
+each cell.
 """
 
 

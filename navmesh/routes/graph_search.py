@@ -19,6 +19,7 @@ import numpy as np
 
 from navmesh.routes.heap import push, take_first
 from surefoot.kernels import kernel
+from surefoot.kernels.fetching import fetch
 
 __all__ = [
     "BEST",
@@ -40,7 +41,7 @@ RUNNING, COMPLETE, EMPTY = 0, 1, 2
 nothing is left that costs less than the limit."""
 
 LABELS = 2
-"""Kept for each node."""
+"""Kept for each node; `_place_for` knows that there are two."""
 
 # Places in scratch.numbers
 _STAMP, _HEAP, _STATE, GOAL_NODE, BEST, EXPANDED = 0, 1, 2, 3, 4, 5
@@ -49,6 +50,7 @@ LIMIT = 7
 """Place in scratch.ends: ways that cost so much [m] are not looked for."""
 _NEAREST = 6  # in scratch.ends: how near [m] to the goal a portal seen is
 _SAME = 1e-9  # [m]
+_AHEAD = 4  # doors of a node that are fetched when it gets a label
 
 
 @kernel(error_model="numpy", inline="always")
@@ -84,14 +86,13 @@ def _out_of_funnel(ax, ay, az, lx, ly, lz, rx, ry, rz, gx, gy, gz):
     """Length of the shortest line from the apex a through the funnel between l and r to g."""
     beyond_left = _turn(ax, ay, lx, ly, gx, gy) > 0.0
     beyond_right = _turn(ax, ay, rx, ry, gx, gy) < 0.0
-    if not beyond_left and not beyond_right:
-        return _distance(ax, ay, az, gx, gy, gz)
-    left = right = 1e300
-    if beyond_left:
-        left = _distance(ax, ay, az, lx, ly, lz) + _distance(lx, ly, lz, gx, gy, gz)
-    if beyond_right:
-        right = _distance(ax, ay, az, rx, ry, rz) + _distance(rx, ry, rz, gx, gy, gz)
-    return min(left, right)
+    x = lx if beyond_left else (rx if beyond_right else gx)
+    y = ly if beyond_left else (ry if beyond_right else gy)
+    z = lz if beyond_left else (rz if beyond_right else gz)
+    length = _distance(ax, ay, az, x, y, z) + _distance(x, y, z, gx, gy, gz)
+    if beyond_left and beyond_right:
+        length = min(length, _distance(ax, ay, az, rx, ry, rz) + _distance(rx, ry, rz, gx, gy, gz))
+    return length
 
 
 @kernel(error_model="numpy")
@@ -111,8 +112,7 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     rest = _distance(sx, sy, sz, gx, gy, gz)
     ends[_NEAREST] = rest
     ends[LIMIT] = 1e300
-    _forget(scratch.stamp, scratch.label, numbers[_STAMP], start_node)
-    scratch.label[start_node, 0], scratch.label_total[start_node, 0] = 0, rest
+    _place_for(scratch.stamp, scratch.label, scratch.label_total, numbers[_STAMP], start_node, rest, 0)
     scratch.node[0] = start_node
     scratch.cost[0] = 0.0
     scratch.total[0] = rest
@@ -125,40 +125,26 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
 
 
 @kernel(error_model="numpy", inline="always")
-def _forget(seen, labels, stamp, node):
-    """Take from ``node`` the labels of searches before."""
-    if seen[node] != stamp:
-        seen[node] = stamp
-        for i in range(LABELS):
-            labels[node, i] = -1
+def _place_for(seen, labels, totals, stamp, node, total, used):
+    """Take for a label that costs ``total`` the place of the dearest of ``node``, or one that is free.
 
-
-@kernel(error_model="numpy", inline="always")
-def _place_for(seen, labels, totals, stamp, node, total):
-    """Which of the labels of ``node`` one that costs ``total`` can be: one that is free, or the dearest if
-    that is dearer; -1 where there is none, or one that costs the same."""
-    place = -1
-    most = total + _SAME
-    _forget(seen, labels, stamp, node)
-    for i in range(LABELS):
-        if labels[node, i] < 0:
-            return i
-        if abs(totals[node, i] - total) <= _SAME:
-            return -1
-        if totals[node, i] > most:
-            place, most = i, totals[node, i]
-    return place
-
-
-@kernel(error_model="numpy", inline="always")
-def _is_done(seen, labels, totals, stamp, node, key):
-    """Whether no label that costs ``key`` or more has a place at ``node``."""
-    if seen[node] != stamp:
-        return False
-    for i in range(LABELS):
-        if labels[node, i] < 0 or totals[node, i] > key:
-            return False
-    return True
+    Returns the number of the label, which is ``used`` where the place was free, or -1 where there is none, or
+    one that costs the same.
+    """
+    fresh = seen[node] != stamp
+    first = np.inf if fresh else totals[node, 0]
+    second = np.inf if fresh else totals[node, 1]
+    same = (abs(first - total) <= _SAME) | (abs(second - total) <= _SAME)
+    if same | (max(first, second) <= total + _SAME):
+        return np.int64(-1)
+    seen[node] = stamp
+    place = 1 if second > first else 0
+    if fresh:
+        labels[node, 1], totals[node, 1] = -1, np.inf
+    label = np.int64(-1 if fresh else labels[node, place])
+    label = used if label < 0 else label
+    labels[node, place], totals[node, place] = label, total
+    return label
 
 
 @kernel(error_model="numpy")
@@ -171,7 +157,6 @@ def advance(net, doors, scratch, budget):
     stamp = numbers[_STAMP]
     goal_node = numbers[GOAL_NODE]
     gx, gy, gz = scratch.ends[3], scratch.ends[4], scratch.ends[5]
-    # arrays taken out of their bundle in a loop are counted as used each time
     seen, labels, label_total = scratch.stamp, scratch.label, scratch.label_total
     nodes, costs, totals = scratch.node, scratch.cost, scratch.total
     parent, via, used = scratch.parent, scratch.via, numbers[_USED]
@@ -214,7 +199,10 @@ def advance(net, doors, scratch, budget):
             numbers[BEST] = label
         before = nodes[parent[label]] if parent[label] >= 0 else -1
         factor = node_cost[node] if weighted else 1.0
+        to_left, to_right = _distance(ax, ay, az, lx, ly, lz), _distance(ax, ay, az, rx, ry, rz)
         on, last = door_start[node], door_start[node + 1]
+        for door in range(on, last):
+            fetch(seen, np.int64(targets[door]))
         more = head[node] if slots > 0 else -1
         while on < last or more >= 0:
             if on < last:
@@ -224,10 +212,11 @@ def advance(net, doors, scratch, budget):
                 door = np.int64(first_slot + more)
                 more = following[more]
             target = targets[door]
-            if target < 0:
+            if (target < 0) | (target == before):
                 continue
             # nothing that goes on from here costs less than the key
-            if target == before or _is_done(seen, labels, label_total, stamp, target, key):
+            done = max(label_total[target, 0], label_total[target, 1]) <= key
+            if done & (seen[target] == stamp):
                 continue
             plx, ply, plz = portal[door, 0], portal[door, 1], portal[door, 2]
             prx, pry, prz = portal[door, 3], portal[door, 4], portal[door, 5]
@@ -241,32 +230,31 @@ def advance(net, doors, scratch, budget):
                 if target == goal_node:
                     rest *= node_cost[target]
             else:
-                if _turn(ax, ay, lx, ly, prx, pry) > 0.0:  # all of the portal is to the left of the funnel
-                    nax, nay, naz = lx, ly, lz
-                    spent += _distance(ax, ay, az, lx, ly, lz)
-                elif _turn(ax, ay, rx, ry, plx, ply) < 0.0:
-                    nax, nay, naz = rx, ry, rz
-                    spent += _distance(ax, ay, az, rx, ry, rz)
-                else:
-                    if _turn(ax, ay, lx, ly, plx, ply) > 0.0:
-                        plx, ply, plz = lx, ly, lz
-                    if _turn(ax, ay, rx, ry, prx, pry) < 0.0:
-                        prx, pry, prz = rx, ry, rz
+                # chosen, not branched: nobody can foretell on which side a portal lies
+                past_left = _turn(ax, ay, lx, ly, prx, pry) > 0.0  # all of the portal is left of the funnel
+                past_right = (not past_left) & (_turn(ax, ay, rx, ry, plx, ply) < 0.0)
+                within = not (past_left | past_right)
+                cut_left = within & (_turn(ax, ay, lx, ly, plx, ply) > 0.0)
+                cut_right = within & (_turn(ax, ay, rx, ry, prx, pry) < 0.0)
+                nax = lx if past_left else (rx if past_right else ax)
+                nay = ly if past_left else (ry if past_right else ay)
+                naz = lz if past_left else (rz if past_right else az)
+                spent += to_left if past_left else (to_right if past_right else 0.0)
+                plx, ply, plz = lx if cut_left else plx, ly if cut_left else ply, lz if cut_left else plz
+                prx, pry, prz = rx if cut_right else prx, ry if cut_right else pry, rz if cut_right else prz
                 rest = _out_of_funnel(nax, nay, naz, plx, ply, plz, prx, pry, prz, gx, gy, gz)
             total = max(spent + rest, key)
-            place = _place_for(seen, labels, label_total, stamp, target, total)
-            if place < 0:
-                continue
-            slot = np.int64(labels[target, place])
+            slot = _place_for(seen, labels, label_total, stamp, target, total, used)
             if slot < 0:
-                slot = used
-                used += 1
-            labels[target, place], label_total[target, place] = slot, total
+                continue
+            used += slot == used
             nodes[slot], costs[slot], totals[slot] = target, spent, total
             parent[slot], via[slot] = label, door
             apex[slot, 0], apex[slot, 1], apex[slot, 2] = nax, nay, naz
             left[slot, 0], left[slot, 1], left[slot, 2] = plx, ply, plz
             right[slot, 0], right[slot, 1], right[slot, 2] = prx, pry, prz
+            for i in range(_AHEAD):
+                fetch(portal, np.int64(door_start[target]) + i)
             push(keys, items, size, total, slot)
             size += 1
         if not leaps:
@@ -284,14 +272,10 @@ def advance(net, doors, scratch, budget):
             if target == goal_node:
                 rest *= node_cost[target]
             total = max(spent + rest, key)
-            place = _place_for(seen, labels, label_total, stamp, target, total)
-            if place < 0:
-                continue
-            slot = np.int64(labels[target, place])
+            slot = _place_for(seen, labels, label_total, stamp, target, total, used)
             if slot < 0:
-                slot = used
-                used += 1
-            labels[target, place], label_total[target, place] = slot, total
+                continue
+            used += slot == used
             nodes[slot], costs[slot], totals[slot] = target, spent, total
             parent[slot], via[slot] = label, doors_count + leap
             for corner in (apex, left, right):

@@ -16,6 +16,7 @@ from navmesh.surface.floor_store import gradient_of, height_of
 from navmesh.surface.storeys import linked, over
 from surefoot.kernels import kernel
 from surefoot.kernels.bundles import BundleType
+from surefoot.kernels.fetching import fetch
 
 __all__ = [
     "FIELD",
@@ -119,10 +120,10 @@ def _along_list(net, cell, px, py, ux, uy, stretch, gap, s, x, y):
 
 
 @kernel(error_model="numpy", inline="always")
-def _around(net, k, right, up):
-    """Cell ``k``, those beside it in the directions ``right`` and ``up``, and the one between these; -1 for
-    one that is not there, or has no list of blockers, or the same as one before."""
-    source, column = net.source, np.int64(net.cell_column[k])
+def _around(net, k, column, right, up):
+    """Cell ``k`` of ``column``, those beside it in the directions ``right`` and ``up``, and the one between
+    these; -1 for one that is not there, or has no list of blockers, or the same as one before."""
+    source = net.source
     side, other = over(net, k, column, right), over(net, k, column, up)
     corner = np.int64(-1)
     if side >= 0:
@@ -143,9 +144,9 @@ def _around(net, k, right, up):
 
 
 @kernel(error_model="numpy")
-def stretch_gap(net, k, cx, cy, ax, ay, ux, uy, low, high, most):
+def stretch_gap(net, k, column, cx, cy, ax, ay, ux, uy, low, high, most):
     """Least distance to where walking ends from the stretch of a line, from ``low`` to ``high`` [m] along the
-    unit vector u from a, inside cell ``k`` with its centre at c.
+    unit vector u from a, inside cell ``k`` of ``column`` with its centre at c.
 
     The lists of the cell and of its neighbours on the stretch's side are asked. u may be 0 where the stretch
     is a point. Returns (gap [m], where on the line [m], the place where walking ends: x, y), with the gap
@@ -155,7 +156,7 @@ def stretch_gap(net, k, cx, cy, ax, ay, ux, uy, low, high, most):
     middle = 0.5 * (high - low)
     right = 0 if px + middle * ux > cx else 2
     up = 1 if py + middle * uy > cy else 3
-    here, side, other, corner = _around(net, k, right, up)
+    here, side, other, corner = _around(net, k, column, right, up)
     stretch = high - low
     if ux == 0.0 and uy == 0.0:
         ux = 1.0
@@ -179,7 +180,8 @@ def gap_at(net, k, x, y):
     """Distance [m] from (x, y), a point in cell ``k``, to the nearest place where walking ends, and that
     place."""
     cx, cy = centre_of(net, k)
-    here, side, other, corner = _around(net, k, 0 if x > cx else 2, 1 if y > cy else 3)
+    column = np.int64(net.cell_column[k])
+    here, side, other, corner = _around(net, k, column, 0 if x > cx else 2, 1 if y > cy else 3)
     square, qx, qy = np.inf, np.inf, np.inf
     for cell in (here, side, other, corner):
         if cell >= 0:
@@ -261,6 +263,15 @@ def _landing(column_start, label, column, node):
     return landing
 
 
+@kernel(error_model="numpy", inline="always")
+def _fetch_cell(net, k):
+    """Ask for the memory that walking over cell ``k`` takes."""
+    fetch(net.label, k)
+    fetch(net.clearance, k)
+    fetch(net.source, k)
+    fetch(net.storey, k)
+
+
 @kernel(error_model="numpy")
 def walk(net, k, ax, ay, bx, by, radius, through):
     """Walk the straight line from a, a point in cell ``k``, to b over linked cells.
@@ -313,7 +324,9 @@ def walk(net, k, ax, ay, bx, by, radius, through):
                 free = max(free, _leaves(cx, cy, clearance[k] - margin, ax, ay, ux, uy, s))
             if free < leave:
                 if radius > 0.0:
-                    gap, where, px, py = stretch_gap(net, k, cx, cy, ax, ay, ux, uy, s, leave, most)
+                    gap, where, px, py = stretch_gap(
+                        net, k, ix * ny + iy, cx, cy, ax, ay, ux, uy, s, leave, most
+                    )
                     if gap < most:
                         least = most = gap
                         place, qx, qy, tight = where, px, py, k
@@ -329,6 +342,7 @@ def walk(net, k, ax, ay, bx, by, radius, through):
                     landing = _landing(column_start, label, jx * ny + jy, node)
                 if landing >= 0:
                     k, ix, iy, s = landing, jx, jy, ahead
+                    _fetch_cell(net, k)
                     if ahead == length:
                         return True, k, least, place * per_length, qx, qy, tight
                     if ux != 0.0:
@@ -344,6 +358,9 @@ def walk(net, k, ax, ay, bx, by, radius, through):
             next_x += step_x
             following = over(net, k, ix * ny + iy, way_x)
             ix += turn_x
+            ahead_x = ix + 2 * turn_x
+            if 0 <= ahead_x < net.nx:  # most columns have one cell
+                _fetch_cell(net, np.int64(column_start[ahead_x * ny + iy]))
         else:
             s = next_y
             next_y += step_y

@@ -82,6 +82,6 @@ def test_of_two_equally_near_blockers_the_first_counts_however_often_it_is_asked
                 choice=np.zeros(3, np.uint8), source=np.array(source, np.int32),
                 blocker_start=np.arange(4, dtype=np.int32), blocker=blocker,
             )  # fmt: skip
-            told.append(stretch_gap(field, 0, -1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.05, 2.0))
+            told.append(stretch_gap(field, 0, 0, -1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.05, 2.0))
         assert told[0] == told[1]
         assert told[0][2] == off

@@ -97,9 +97,10 @@ class GaitChanges:
             self._decider.predicted.expect(person, seen)
 
     def choose_step(self) -> None:
-        """Just after a foot came down on uneven ground: choose the duration of the next step."""
+        """Just after a foot of a strained person came down on uneven ground: choose the duration of the next
+        step."""
         person = self._person
-        if person.on_feet.begins_uneven_step:
+        if person.on_feet.begins_strained_step:
             choice, _, seen, _ = self._decider.best(person, STEPPINGS, _vary_step, self._steps_on)
             person.vary_step(choice)
             self._decider.predicted.expect(person, seen)

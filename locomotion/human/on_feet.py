@@ -41,6 +41,7 @@ from locomotion.gaits.walk.layout import (
     PHASE,
     SINGLE,
     STANDING,
+    STRAINS,
     SUDDEN,
     UNEVEN,
     WALK_HEADING,
@@ -54,6 +55,7 @@ from locomotion.gaits.walk.layout import (
 )
 from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, WalkSkill
 from locomotion.gaits.walk.steps import TURN_TIME
+from locomotion.gaits.walk.strain import FORESEEN, STRAINED, USUAL, note_strain, slope_ahead
 from locomotion.human.gaze import look_ahead
 from locomotion.human.intent import TURN_FIRST
 from locomotion.human.landing import Landing
@@ -171,10 +173,22 @@ class OnFeet:
         """Whether it walks on steep ground or stairs."""
         return bool(self.walks and self.walk[UNEVEN] > 0.0)
 
+    def strained_soon(self, command: NDArray[np.float64]) -> bool:
+        """Whether it walks on steep ground or stairs and may have to rehearse one of its next steps."""
+        if not self.on_uneven_ground:
+            return False
+        return bool(max(*self.walk[STRAINS], USUAL + slope_ahead(self.walk, command)) > FORESEEN)
+
     @property
-    def begins_uneven_step(self) -> bool:
-        """Whether a foot has just come down on such ground."""
-        return self.on_uneven_ground and self.walk[PHASE] == DOUBLE and self.walk[CLOCK] == 0.0
+    def begins_step(self) -> bool:
+        """Whether a foot has just come down."""
+        return self.walks and bool(self.walk[PHASE] == DOUBLE and self.walk[CLOCK] == 0.0)
+
+    @property
+    def begins_strained_step(self) -> bool:
+        """Whether a foot has just come down on steep ground or stairs, and it is strained, or was at the step
+        before."""
+        return self.on_uneven_ground and self.begins_step and bool(self.walk[STRAINS].max() > STRAINED)
 
     def vary_step(self, longer: Sequence[float]) -> None:
         """Lengthen the transfer and the swing of the step that has just begun [s]."""
@@ -311,6 +325,7 @@ class OnFeet:
             self.learned.observe(index, data)
         elif self.walks:
             observe_walk(index, data, self.walk)
+            note_strain(self.walk, state[controller.OBSERVED], command)
             if self.brakes and self.walk[PHASE] == STANDING:
                 self.walk[CAUGHT] = 0.0
                 self.brakes = not self._stands_still(state)

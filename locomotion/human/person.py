@@ -253,7 +253,7 @@ class Person:
             return True
         if follower.tried_to_slow and feet.slowing > 0.0 and not feet.brakes:
             return True
-        if feet.on_uneven_ground and not self.fours.active and not self.held:
+        if feet.strained_soon(self.command) and not self.fours.active and not self.held:
             return True
         if follower.path is None or self.status not in MOVING or self.fours.active or feet.slowing > 0.0:
             return False

@@ -11,7 +11,8 @@ __all__ = [
     "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS", "HUMP", "LEVEL", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "LONGER",
     "MISSED", "PHASE", "REST", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES",
     "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STAIRS", "STAIRS_AHEAD", "STANDING", "STEEP",
-    "STEEPNESS", "STEPPED_AT", "STEPPED_FROM", "STEP_MADE", "SUDDEN", "SWING_ANGLES",
+    "STEEPNESS", "STEPPED_AT", "STEPPED_FROM", "STEP_MADE", "STRAINS",
+    "SUDDEN", "SWING_ANGLES",
     "SWING_TIME", "TILTED", "TOLD", "UNEVEN",
     "USUAL_SPEED", "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS",
     "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE", "clamp", "fast_share", "first_gains", "gain_limits",
@@ -147,7 +148,9 @@ TOLD = 170
 """Heading [rad] asked for at the last tick."""
 SUDDEN = 171
 """How much [rad] of a turn that was asked for at once, not bit by bit as in a bend, is still to come."""
-WALK_SIZE = 172
+STRAINS = slice(172, 174)
+"""How strained the walk was at the last touchdown, and at the one before (`locomotion.gaits.walk.strain`)."""
+WALK_SIZE = 174
 
 
 def new_walk(heading: float = 0.0) -> np.ndarray:

@@ -86,11 +86,10 @@ def _out_of_funnel(ax, ay, az, lx, ly, lz, rx, ry, rz, gx, gy, gz):
     """Length of the shortest line from the apex a through the funnel between l and r to g."""
     beyond_left = _turn(ax, ay, lx, ly, gx, gy) > 0.0
     beyond_right = _turn(ax, ay, rx, ry, gx, gy) < 0.0
-    x = lx if beyond_left else (rx if beyond_right else gx)
-    y = ly if beyond_left else (ry if beyond_right else gy)
-    z = lz if beyond_left else (rz if beyond_right else gz)
+    x, y, z = rx if beyond_right else gx, ry if beyond_right else gy, rz if beyond_right else gz
+    x, y, z = lx if beyond_left else x, ly if beyond_left else y, lz if beyond_left else z
     length = _distance(ax, ay, az, x, y, z) + _distance(x, y, z, gx, gy, gz)
-    if beyond_left and beyond_right:
+    if beyond_left & beyond_right:
         length = min(length, _distance(ax, ay, az, rx, ry, rz) + _distance(rx, ry, rz, gx, gy, gz))
     return length
 

@@ -19,6 +19,7 @@ import numpy as np
 
 from navmesh.graph.portals import MARGIN
 from navmesh.routes.cell_search import over_cells
+from navmesh.routes.foresight import fetch_line
 from navmesh.routes.funnel import funnel, round_corner
 from navmesh.routes.leading_round import SLACK, lead_round, round_in_disc
 from navmesh.routes.tightening import tighten
@@ -226,6 +227,8 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
             rounding += sqrt((x - lx) ** 2 + (y - ly) ** 2)
             lx, ly = x, y
             low, high = at[i - 1] >> 1, at[i] >> 1
+            px, py = scratch.points[count - 1, 0], scratch.points[count - 1, 1]
+            fetch_line(net, scratch.nodes, low, high, px, py, x, y, radius * (1.0 + SLACK))
             saved = _save(scratch, leg, count)
             before = count
             count, state = mend(net, doors, scratch, leg, count, x, y, k, low, high, LINES)

@@ -22,6 +22,7 @@ __all__ = [
     "FIELD",
     "cell_at",
     "centre_of",
+    "fetch_cell",
     "floor_at",
     "gap_at",
     "same_place",
@@ -264,7 +265,7 @@ def _landing(column_start, label, column, node):
 
 
 @kernel(error_model="numpy", inline="always")
-def _fetch_cell(net, k):
+def fetch_cell(net, k):
     """Ask for the memory that walking over cell ``k`` takes."""
     fetch(net.label, k)
     fetch(net.clearance, k)
@@ -342,7 +343,7 @@ def walk(net, k, ax, ay, bx, by, radius, through):
                     landing = _landing(column_start, label, jx * ny + jy, node)
                 if landing >= 0:
                     k, ix, iy, s = landing, jx, jy, ahead
-                    _fetch_cell(net, k)
+                    fetch_cell(net, k)
                     if ahead == length:
                         return True, k, least, place * per_length, qx, qy, tight
                     if ux != 0.0:
@@ -360,7 +361,7 @@ def walk(net, k, ax, ay, bx, by, radius, through):
             ix += turn_x
             ahead_x = ix + 2 * turn_x
             if 0 <= ahead_x < net.nx:  # most columns have one cell
-                _fetch_cell(net, np.int64(column_start[ahead_x * ny + iy]))
+                fetch_cell(net, np.int64(column_start[ahead_x * ny + iy]))
         else:
             s = next_y
             next_y += step_y

@@ -26,9 +26,9 @@ from locomotion.paths.command import SLOPE_THERE
 
 __all__ = ["FORESEEN", "STRAINED", "USUAL", "note_strain", "slope_ahead", "strain"]
 
-STRAINED = 0.7
+STRAINED = 0.55
 """Strain above which a step is rehearsed."""
-FORESEEN, USUAL = 0.5, 0.2
+FORESEEN, USUAL = 0.4, 0.2
 """Strain above which one of the next steps may have to be; that of a steady walk on level ground."""
 _SLOWER, _OUTWARD, _SINKING = 0.17, 0.11, 0.03
 # [m/s] of the centre of mass as a foot of a steady walk comes down: below its reference, towards it, down

@@ -226,7 +226,9 @@ class AnimalDriver(Driver):
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
         self.take_note()
-        return pulled_plan(way) if self._followed is before else self.plans[-1]
+        if len(goals) > 1 or self._followed is before:  # a trail leads to the first goal, or not there yet
+            return pulled_plan(way)
+        return self.plans[-1]
 
     @property
     def goals_left(self) -> int:

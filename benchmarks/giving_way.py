@@ -1,7 +1,7 @@
 """Whether dogs, people and walkers give way to each other.
 
     python -m benchmarks.giving_way [--starts 10] [--scenes crossing] [--pairs dog-dog] [--without]
-        [--walk learned]
+        [--walk planned]
 
 Scenes: two that meet head-on, two whose paths cross, one and two from each side of a door 1.2 m wide, three
 sent to one place, and three that chase a point that moves at 1.2 m/s and then stops (told twice a second
@@ -82,7 +82,7 @@ def play(
     scene: str,
     seed: int,
     without: bool,
-    walk: str = "planned",
+    walk: str = "learned",
 ) -> dict:
     world, random = World(graph, seed=seed, walk=walk), np.random.default_rng([seed, 7])
     if without:
@@ -147,7 +147,7 @@ def main() -> None:
     parser.add_argument("--scenes", default="head-on,crossing,doorway,doorway of four")
     parser.add_argument("--pairs", default=",".join("-".join(pair) for pair in PAIRS))
     parser.add_argument("--without", action="store_true")
-    parser.add_argument("--walk", default="planned", choices=WALKS, help="as of World")
+    parser.add_argument("--walk", default=WALKS[0], choices=WALKS, help="as of World")
     parser.add_argument("--json", type=Path, help="file to write")
     options = parser.parse_args()
     graphs = {False: floor(*HALL), True: floor(*DOOR)}

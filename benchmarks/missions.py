@@ -1,7 +1,7 @@
 """Missions between random reachable points: arrivals, distance from the path, and cost.
 
     python -m benchmarks.missions [--levels undulating courtyard] [--missions 50] [--speed 3.0]
-        [--walk learned] [--json FILE] [--processes 1] [--cluster ADDRESS]
+        [--walk planned] [--json FILE] [--processes 1] [--cluster ADDRESS]
 
 For each level the graph is built with a person's rules (`locomotion.PERSON_RULES`), start and goal are drawn
 from its nodes, 10 to 60 m of route apart, and a person in a `runtime.World` is sent there from standing. The
@@ -291,7 +291,7 @@ def main() -> None:
     parser.add_argument("--missions", type=int, default=50)
     parser.add_argument("--speed", type=float, default=3.0, help="wished speed [m/s]")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--walk", default="planned", choices=WALKS, help="as of World")
+    parser.add_argument("--walk", default=WALKS[0], choices=WALKS, help="as of World")
     parser.add_argument("--json", type=Path, help="write every mission here")
     add_place(parser)
     options = parser.parse_args()

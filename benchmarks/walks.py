@@ -12,6 +12,7 @@ not hold), the other only the planned one:
 - rooms: ways through doors 1.2 m wide and around corners
 - pushed: a walk with a push of 50 to 200 N for 0.1 s from any side every 2 to 4 s, for half a minute
 - run: runs at 2.5 to 3.5 m/s from a stand and back to one, a stop on the way in a half of them
+- orders at a run: a minute of goals and stops at 0.8 to 4 m/s, a new one every 2 to 8 s, on 50 x 50 m
 - crowd: 16 people in 12 x 12 m with goals all over it, for half a minute
 
 Printed: falls in all; trials in which somebody fell, in which somebody was stuck or lost, and of how many
@@ -88,11 +89,10 @@ def _field(side: float, height: Callable[[np.ndarray, np.ndarray], np.ndarray]) 
     return _level(np.stack([x, y, height(x, y)], axis=1), faces)
 
 
-def hall() -> navmesh.NodeGraph:
-    """12 x 12 m."""
-    return _level(
-        np.array([(0, 0, 0), (12, 0, 0), (12, 12, 0), (0, 12, 0.0)]), np.array([(0, 1, 2), (0, 2, 3)])
-    )
+def hall(side: float = 12.0) -> navmesh.NodeGraph:
+    """A level floor of ``side`` x ``side`` [m]."""
+    corners = side * np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0.0)])
+    return _level(corners, np.array([(0, 1, 2), (0, 2, 3)]))
 
 
 def rolling() -> navmesh.NodeGraph:
@@ -217,6 +217,17 @@ def run(stage: Stage, rng: np.random.Generator) -> None:
             stage.go_on(_LIMIT, lambda: not agent.moving)
 
 
+def orders_at_a_run(stage: Stage, rng: np.random.Generator) -> None:
+    """A minute of them."""
+    agent = _spawn(stage, rng)
+    while stage.world.time < 60.0:
+        if rng.random() < 0.25:
+            agent.stop()
+        elif agent.status != "fallen":
+            agent.go_to(_somewhere(stage, rng), speed=float(rng.uniform(0.8, 4.0)))
+        stage.go_on(float(rng.uniform(2.0, 8.0)))
+
+
 def crowd(stage: Stage, rng: np.random.Generator) -> None:
     """Half a minute."""
     agents = [_spawn(stage, rng) for _ in range(16)]
@@ -261,6 +272,7 @@ SCENES: dict[str, tuple[Callable[[np.random.Generator], navmesh.NodeGraph], Scen
     "rooms": (lambda rng: rooms(), ways),
     "pushed": (lambda rng: hall(), pushed),
     "run": (_long_hall, run),
+    "orders at a run": (lambda rng: hall(50.0), orders_at_a_run),
     "crowd": (lambda rng: hall(), crowd),
 }
 """What levels and people do in each."""

@@ -69,6 +69,8 @@ class GaitChanges:
         person = self._person
         if person.status not in MOVING or not person.follower.runs or person.follower.pace < 1.0:
             return
+        if person.on_feet.walks_as_learned:
+            return  # the planned walk begins the run
         run_up, arc = person.run_up, person.arc_length
         near = run_up.comes_within(arc, _TOO_NEAR)
         if (near or run_up.balked) and person.go_back():

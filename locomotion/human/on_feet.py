@@ -196,11 +196,12 @@ class OnFeet:
 
     def at_rest(self, state: NDArray[np.float64]) -> bool:
         """Whether it stands still, and does not have to stand up straight yet."""
-        return self._stands_still(state) and (
+        return self.stands_still(state) and (
             self.learned is None or self.learned.active or self._upright(state)
         )
 
-    def _stands_still(self, state: NDArray[np.float64]) -> bool:
+    def stands_still(self, state: NDArray[np.float64]) -> bool:
+        """Whether it stands still, if only in a crouch."""
         stands = self.walks and self.walk[PHASE] == STANDING and self.walk[CLOCK] == 0.0
         return bool(stands and np.abs(state[controller.COM_VELOCITY]).max() < _STILL)
 
@@ -275,8 +276,10 @@ class OnFeet:
         learned, walk = self.learned, self.walk
         if learned is None or not self.walks or walk[PHASE] == SINGLE or walk[CLOCK] > 0.0:
             return
-        usual = learned.active or walk[WALK_STEPS] >= _CHANGED
-        usual = usual or (walk[PHASE] == STANDING and self._upright(body.control))
+        ready = walk[WALK_STEPS] >= _CHANGED
+        if walk[PHASE] == STANDING:  # out of a crouch it straightens up, but the planned walk sets off
+            ready = self._upright(body.control) or (ready and not moving)
+        usual = learned.active or ready
         fades = self.residual.acts and walk[PHASE] != STANDING  # what is left in a stand is no more needed
         usual = usual and not self.brakes and not fades and not self.landing.acts
         suits = usual and learned.suits(follower, moving, body, command, walk)
@@ -328,7 +331,7 @@ class OnFeet:
             note_strain(self.walk, state[controller.OBSERVED], command)
             if self.brakes and self.walk[PHASE] == STANDING:
                 self.walk[CAUGHT] = 0.0
-                self.brakes = not self._stands_still(state)
+                self.brakes = not self.stands_still(state)
             self.brakes &= bool(self.walk[WALK_STEPS] < _HELD_UP)
 
     # --- from one gait to the other

@@ -284,7 +284,7 @@ class ComesToRest:
             way = max(way, now)
             if _failed(body) or way >= self.within:
                 return 0.0, []
-            if body.on_feet.at_rest(body.control):
+            if body.on_feet.stands_still(body.control):
                 askew = math.remainder(body.yaw - body.on_feet.walk[WALK_HEADING], 2.0 * math.pi)
                 room = way + (way - now)
                 if abs(askew) >= _ASKEW:

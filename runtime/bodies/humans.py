@@ -113,7 +113,7 @@ class People(Population):
         skills: Sequence[Path] = (),
         rehearsals: int = REHEARSALS,
         seed: int = 0,
-        walk: str = "planned",
+        walk: str = "learned",
         rehearsal_ticks: int | None = REHEARSAL_TICKS,
         threads: int = 1,
     ) -> None:

@@ -88,8 +88,9 @@ class World:
     so far; who stands before an obstacle tries again at its next step. None: as many as they need at that
     moment, so that skills hold most often, but a tick takes up to a second. 0 of either: nobody rehearses.
 
-    ``walk``: "planned", or "learned": where the ground is level, people walk as a network has learned it from
-    people (`locomotion.human.learned_walk`). A state is restored in a world with the same ``walk``.
+    ``walk``: "learned": where the ground is level, people walk as a network has learned it from people
+    (`locomotion.human.learned_walk`); or "planned": without it. A state is restored in a world with the same
+    ``walk``.
 
     ``threads``: how many advance people side by side; the run is the same with any number, but not with other
     ``rehearsals`` or ``rehearsal_ticks``.
@@ -104,7 +105,7 @@ class World:
         seed: int = 0,
         skills: Sequence[str | os.PathLike[str]] = (),
         rehearsals: int = REHEARSALS,
-        walk: str = "planned",
+        walk: str = "learned",
         rehearsal_ticks: int | None = REHEARSAL_TICKS,
         threads: int = 1,
     ) -> None:

@@ -127,7 +127,7 @@ def stop_while_running() -> Recorder:
 def fall_and_get_up() -> Recorder:
     recorder = one_way("human", (6.0, 4.0, 0.0), (22.0, 4.0, 0.0), 3.0, 2.8)
     human = next(iter(recorder.world.agents.values())).human
-    human.data.xfrc_applied[human.index.root, :2] = (-200.0, 900.0)
+    human.data.xfrc_applied[human.index.root, :2] = (-200.0, 700.0)
     recorder.go_on(0.2)
     human.data.xfrc_applied[:] = 0.0
     recorder.go_on(16.0)

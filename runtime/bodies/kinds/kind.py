@@ -16,7 +16,7 @@ from runtime.traffic.traffic import Traffic
 
 __all__ = ["WALKS", "BodyKind", "Surroundings"]
 
-WALKS = ("planned", "learned")
+WALKS = ("learned", "planned")
 """How people walk where the ground is level; everywhere else as planned."""
 
 

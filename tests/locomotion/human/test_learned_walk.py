@@ -1,15 +1,19 @@
 """A person with the learned walk: from stand to stand on level ground, where it gives back, and that it is
 saved whole."""
 
+import itertools
+
 import numpy as np
 import pytest
 
 from locomotion.body.person import JOINT_NAMES
 from locomotion.errors import LocomotionError
 from locomotion.gaits.policy.skill import load_policy
+from locomotion.gaits.walk.layout import WALK_STEPS
 from locomotion.ground.ground import Ground
 from locomotion.human.human import Human
 from locomotion.human.saved_state_check import check_person
+from locomotion.rehearsal.trials import BRAKINGS, ComesToRest, at_once
 from tests.locomotion.human.people import finish, flat_ground
 
 
@@ -150,3 +154,66 @@ def test_who_is_put_beside_a_kerb_stands_as_planned():
     kerb = np.array([[x, y, z] for x, z in ((-5, 0), (0.3, 0), (0.301, 0.1), (9, 0.1)) for y in (-3, 3.0)])
     faces = [f for k in range(3) for f in ([2 * k, 2 * k + 2, 2 * k + 3], [2 * k, 2 * k + 3, 2 * k + 1])]
     assert not walker(Ground.from_arrays(kerb, faces)).on_feet.walks_as_learned
+
+
+def test_told_to_run_as_it_walks_it_begins_to_run_as_planned():
+    human = walker()
+    human.follow([[0, 0, 0], [60, 0, 0]], 1.4)
+    while human.arc_length < 3.0:
+        human.tick()
+    assert human.on_feet.walks_as_learned
+    human.follow([human.com * [1, 1, 0], [60, 0, 0]], 3.5)
+    learned = []
+    while human.gait_now == "walk":
+        learned.append(human.on_feet.walks_as_learned)
+        human.tick()
+    assert learned[0] and not any(learned[-10:])
+
+
+def braking(harder, after=14.0):
+    """One who runs, and has just begun to brake."""
+    human = walker()
+    human.follow([[0, 0, 0], [60, 0, 0]], 3.0)
+    while human.arc_length < after:
+        human.tick()
+    human.brake(harder)
+    return human
+
+
+def stopped(onward):
+    """One who has braked, in several steps, and just stands, in a crouch; with ``onward`` it is to go on."""
+    for harder, after in itertools.product(BRAKINGS, (14.0, 14.4, 14.8)):
+        human = braking(harder, after)
+        while human.status != "fallen" and not human.on_feet.stands_still(human.control):
+            human.tick()
+        if human.status != "fallen" and human.on_feet.walk[WALK_STEPS] >= 4.0:
+            assert not human.on_feet.at_rest(human.control), "it crouches"
+            if onward:
+                human.follow([human.com * [1, 1, 0], [60, 0, 0]], 1.3)
+            else:
+                human.stop()
+            return human
+    raise AssertionError("it always falls")
+
+
+def test_out_of_a_crouch_it_straightens_up_as_learned():
+    human = stopped(onward=False)
+    while human.status != "fallen" and not human.held:
+        human.tick()
+    assert human.on_feet.walks_as_learned
+    knees = [JOINT_NAMES.index(f"{side}_knee_flexion") for side in ("right", "left")]
+    assert (human.qpos[7:][knees] < np.radians(20.0)).all()
+
+
+def test_out_of_a_crouch_it_sets_off_as_planned():
+    human = stopped(onward=True)
+    as_planned = 0
+    while not human.on_feet.walks_as_learned:
+        human.tick()
+        as_planned += human.gait_now == "walk"
+    assert as_planned > 100 and human.status == "walking" and np.linalg.norm(human.velocity[:2]) > 0.5
+
+
+def test_a_stop_counts_as_rehearsed_when_it_stands_if_only_in_a_crouch():
+    """It goes on from there, and never stands straight."""
+    assert any(at_once(ComesToRest()(braking(harder)))[0] > 0.0 for harder in BRAKINGS)

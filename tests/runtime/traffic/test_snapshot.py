@@ -64,7 +64,7 @@ def told_and_real(world, seconds):
         (0.0, 1.4, (2.0, 3.0), 0.8),  # turns on the spot
         (5.0, 1.4, (2.0, 5.0), 1.0),  # comes to a stand first
         (5.0, 1.4, None, 0.7),  # stops
-        (5.0, 3.0, None, 0.8),  # from a run
+        (5.0, 3.0, None, 1.2),  # from a run
     ],
 )
 def test_a_person_is_foretold_where_it_will_be(hall, walked, speed, goal, within):

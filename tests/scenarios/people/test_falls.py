@@ -62,7 +62,7 @@ def _fall(world: World, agent: Agent, force: tuple[float, float]) -> float:
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_carried_off_by_a_fall_it_goes_on_from_there(yard, begun, side):
     world, agent = _on_the_way(yard, begun)
-    assert _fall(world, agent, (0.0, 900.0 * side)) > 0.5
+    assert _fall(world, agent, (0.0, 1200.0 * side)) > 0.5
     assert [type(event) for event in world.events[-2:]] == [GotUp, Departed]
     world.step(0.1)  # its path is planned meanwhile
     assert abs(agent.human.lateral_error) < 0.2

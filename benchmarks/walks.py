@@ -23,6 +23,7 @@ import argparse
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -147,15 +148,20 @@ def _spawn(stage: Stage, rng: np.random.Generator) -> Agent:
             pass
 
 
-def orders(stage: Stage, rng: np.random.Generator) -> None:
-    """A minute of them."""
+def orders(
+    stage: Stage,
+    rng: np.random.Generator,
+    speeds: tuple[float, float] = (0.5, 2.0),
+    apart: tuple[float, float] = (1.0, 6.0),
+) -> None:
+    """A minute of them, at ``speeds`` [m/s], so far ``apart`` [s]."""
     agent = _spawn(stage, rng)
     while stage.world.time < 60.0:
         if rng.random() < 0.25:
             agent.stop()
         elif agent.status != "fallen":
-            agent.go_to(_somewhere(stage, rng), speed=float(rng.uniform(0.5, 2.0)))
-        stage.go_on(float(rng.uniform(1.0, 6.0)))
+            agent.go_to(_somewhere(stage, rng), speed=float(rng.uniform(*speeds)))
+        stage.go_on(float(rng.uniform(*apart)))
 
 
 def short_ways(stage: Stage, rng: np.random.Generator) -> None:
@@ -217,17 +223,6 @@ def run(stage: Stage, rng: np.random.Generator) -> None:
             stage.go_on(_LIMIT, lambda: not agent.moving)
 
 
-def orders_at_a_run(stage: Stage, rng: np.random.Generator) -> None:
-    """A minute of them."""
-    agent = _spawn(stage, rng)
-    while stage.world.time < 60.0:
-        if rng.random() < 0.25:
-            agent.stop()
-        elif agent.status != "fallen":
-            agent.go_to(_somewhere(stage, rng), speed=float(rng.uniform(0.8, 4.0)))
-        stage.go_on(float(rng.uniform(2.0, 8.0)))
-
-
 def crowd(stage: Stage, rng: np.random.Generator) -> None:
     """Half a minute."""
     agents = [_spawn(stage, rng) for _ in range(16)]
@@ -272,7 +267,7 @@ SCENES: dict[str, tuple[Callable[[np.random.Generator], navmesh.NodeGraph], Scen
     "rooms": (lambda rng: rooms(), ways),
     "pushed": (lambda rng: hall(), pushed),
     "run": (_long_hall, run),
-    "orders at a run": (lambda rng: hall(50.0), orders_at_a_run),
+    "orders at a run": (lambda rng: hall(50.0), partial(orders, speeds=(0.8, 4.0), apart=(2.0, 8.0))),
     "crowd": (lambda rng: hall(), crowd),
 }
 """What levels and people do in each."""

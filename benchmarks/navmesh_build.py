@@ -40,8 +40,9 @@ def lost_connections(graph: NodeGraph, radius: float) -> int:
     """
     surface = graph.surface
     wide = surface.clearance >= radius
-    a, d = np.nonzero(surface.link >= 0)
-    b = surface.link[a, d]
+    link = surface.link
+    a, d = np.nonzero(link >= 0)
+    b = link[a, d]
     keep = wide[a] & wide[b]
     flood = components(len(surface), a[keep], b[keep])
     source = np.repeat(np.arange(len(graph)), np.diff(graph.edge_start))

@@ -94,12 +94,21 @@ class _Made(NamedTuple):
 
 @lru_cache(maxsize=8)
 def _made_of(
-    run: RunSkill, walk: WalkSkill, slow_down: SlowDownSkill, speed_up: SpeedUpSkill, brake: BrakeSkill
+    run: RunSkill,
+    walk: WalkSkill,
+    slow_down: SlowDownSkill,
+    speed_up: SpeedUpSkill,
+    brake: BrakeSkill,
+    learned: bool,
 ) -> _Made:
-    """Made once for all people with the same skills, which never change."""
+    """Made once for all people with the same skills, which never change. ``learned``: whether they have the
+    learned walk, too."""
+    walks = walk_limits(walk)
+    if learned:
+        walks = replace(walks, tight=(walks.tight[0], MOST_TURN))
     return _Made(
         speed_up.run_tables(run), slow_down.run_tables(run), brake.run_tables(run),
-        slow_down.walk_tables(walk), brake.walk_tables(walk), run_limits(run), walk_limits(walk),
+        slow_down.walk_tables(walk), brake.walk_tables(walk), run_limits(run), walks,
     )  # fmt: skip
 
 
@@ -125,12 +134,10 @@ class OnFeet:
     ) -> None:
         self.run_skill, self.walk_skill = run, walk
         self.slow_down_skill, self.speed_up_skill, self.brake_skill = slow_down, speed_up, brake
-        made = _made_of(run, walk, slow_down, speed_up, brake)
+        made = _made_of(run, walk, slow_down, speed_up, brake, policy is not None)
         self._quick_run, self._slow_run, self._braking_run = made.quick_run, made.slow_run, made.braking_run
         self._first_steps, self._braking_steps = made.first_steps, made.braking_steps
         self.limits, self.walk_limits = made.limits, made.walk_limits
-        if policy is not None:
-            self.walk_limits = replace(made.walk_limits, tight=(made.walk_limits.tight[0], MOST_TURN))
         self.walk = new_walk()
         self.learned = None if policy is None else LearnedWalk(policy)
         self.residual = Residual(residual)

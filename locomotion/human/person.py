@@ -144,7 +144,7 @@ class Person:
         return self.data.qpos.copy()
 
     def pose(self) -> NDArray[np.float64]:
-        """(46,) `qpos` as it is shown: a person that stands on the learned walk breathes and looks about."""
+        """(46,) `qpos` as it is shown: a person who stands as learned breathes and looks about."""
         pose = self.qpos
         if self.on_feet.walks_as_learned and self.status not in MOVING:
             pose[7:] = idle_pose(pose[7:], (self.ticks - self.ended_at) * CONTROL_DT, self.habit)

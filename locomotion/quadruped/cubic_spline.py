@@ -34,6 +34,13 @@ def natural_spline(at: NDArray[np.float64], values: NDArray[np.float64]) -> NDAr
     return out
 
 
+@kernel(inline="always")
+def _place(pieces, piece, i, s):
+    """Coordinate ``i`` of a spline, ``s`` behind the first knot of ``piece``."""
+    a, b, c = pieces[0, piece, i], pieces[1, piece, i], pieces[2, piece, i]
+    return pieces[3, piece, i] + c * s + b * (s * s) + a * (s * s * s)
+
+
 @kernel
 def along_spline(at, pieces, where, place, first, second):
     """Places, first and second derivatives (k, 2) of a spline of `natural_spline` at ``where`` (k,), which
@@ -45,7 +52,7 @@ def along_spline(at, pieces, where, place, first, second):
         s = where[k] - at[piece]
         for i in range(2):
             a, b, c = pieces[0, piece, i], pieces[1, piece, i], pieces[2, piece, i]
-            place[k, i] = pieces[3, piece, i] + c * s + b * (s * s) + a * (s * s * s)
+            place[k, i] = _place(pieces, piece, i, s)
             first[k, i] = c + b * s * 2.0 + a * (s * s) * 3.0
             second[k, i] = b * 2.0 + a * s * 6.0
 
@@ -59,14 +66,7 @@ def length_along(at, pieces, fine, along):
         while piece < len(at) - 2 and fine[k] >= at[piece + 1]:
             piece += 1
         s = fine[k] - at[piece]
-        cubes, squares, linear, constant = (
-            pieces[0, piece],
-            pieces[1, piece],
-            pieces[2, piece],
-            pieces[3, piece],
-        )
-        x = constant[0] + linear[0] * s + squares[0] * (s * s) + cubes[0] * (s * s * s)
-        y = constant[1] + linear[1] * s + squares[1] * (s * s) + cubes[1] * (s * s * s)
+        x, y = _place(pieces, piece, 0, s), _place(pieces, piece, 1, s)
         if k > 0:
             length += math.sqrt((x - last_x) * (x - last_x) + (y - last_y) * (y - last_y))
         along[k] = length

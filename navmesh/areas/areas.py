@@ -203,14 +203,14 @@ def areas_of(graph: "NodeGraph") -> Areas:
                 surface.origin,
                 math.cos(rules.max_slope),
             )
-            h, (nx, ny) = surface.resolution, surface.shape
+            h, (nx, ny), link = surface.resolution, surface.shape, surface.link
             area, row, part = _areas_of_cells(
                 table,
                 *columns_of_triangles(table, Patch(h, 0, 0, nx, ny), (0, 0, nx, ny)),
                 terrain.face_material[level].astype(np.int16),
                 surface.cell_column,
                 *surface.floor.unpacked(surface.column_start),
-                surface.link,
+                link,
                 h,
                 ny,
                 rules.max_step,
@@ -219,7 +219,7 @@ def areas_of(graph: "NodeGraph") -> Areas:
             uniform = (part == part[:, :1]).all(axis=1)
             area[several[uniform]] = part[uniform, 0]
             row[several] = np.where(uniform, -1, np.cumsum(~uniform) - 1)
-            kept = Areas(area, *_rows_at_borders(area, row, part[~uniform], surface.link))
+            kept = Areas(area, *_rows_at_borders(area, row, part[~uniform], link))
         graph.cache["areas"] = kept
     return kept
 

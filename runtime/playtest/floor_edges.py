@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from navmesh.surface.storeys import APART
 from runtime.playtest.site import Site
 
 __all__ = ["edges_of"]
@@ -18,7 +19,7 @@ def edges_of(site: Site, parts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     surface = site.graph.surface
     node_inside = np.append(parts, False)[site.node_part]
     mine = (site.graph.label >= 0) & node_inside[site.graph.label]
-    at, way = np.nonzero(mine[:, None] & (surface.link < 0))
+    at, way = np.nonzero(mine[:, None] & (surface.storey == APART))
     places = surface.centers(at)
     storey = np.round(places[:, 2] / site.graph.rules.headroom).astype(np.int64)
     squares = np.floor((places[:, :2] - surface.origin[:2]) / _PIECE)

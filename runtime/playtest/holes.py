@@ -13,6 +13,7 @@ import numpy as np
 import shapely
 
 from navmesh.level.mesh_queries import crossed
+from navmesh.surface.storeys import APART
 from navmesh.surface.surface import DIRECTIONS
 from runtime.playtest.mesh import standing
 from runtime.playtest.site import Site
@@ -90,7 +91,7 @@ def _open_rim(site: Site, reached: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     surface, rules = site.graph.surface, site.graph.rules
     known = site.graph.label >= 0
     known[known] = np.append(reached, False)[site.node_part[site.graph.label[known]]]
-    cell, way = np.nonzero((surface.link < 0) & known[:, None])
+    cell, way = np.nonzero((surface.storey == APART) & known[:, None])
     rim = surface.centers(cell)
     over = rim + np.column_stack([DIRECTIONS[way] * surface.resolution, np.zeros(len(way))])
     empty = ~_has_floor(site, over, rules.max_step)

@@ -1,8 +1,7 @@
 """How near to a fall a person is that walks on slopes or stairs, as a foot comes down.
 
-Such a fall nearly always shows seconds before: the body is faster or slower than it is to be, or goes
-sideways; and the steeper the way, the less it takes. Who is strained rehearses its next step
-(`locomotion.rehearsal`).
+Such a fall nearly always shows seconds before: the body is too fast or too slow, or moves sideways. On a
+steeper way it takes less. A strained person rehearses its next step (`locomotion.rehearsal`).
 """
 
 import math

@@ -21,8 +21,8 @@ class Stage:
       stands: whether standing is learned, and not the walk. It is over for who has to make a step.
       from_starts: share of those who begin in one of the given states, if there are any.
       changes: whether orders change, every 3 s on average.
-      waits: whether the speed told waits for a body that is too slow, as it does in worlds. That teaches a
-        safe walk, but a slow one; without it the policy learns to keep up.
+      waits: whether the policy is not told to be faster while its body is too slow, as in worlds. That
+        teaches a safe walk, but a slow one; without it the policy learns to keep up.
       noise: standard deviation of what is tried, at the stage's beginning and at its end.
       timestep: of the physics [s].
       longest: decisions after which everybody begins anew.

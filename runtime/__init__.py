@@ -36,6 +36,7 @@ if TYPE_CHECKING:
         SkillStarted,
         Stuck,
         TurnedAway,
+        Waiting,
     )
     from runtime.views.live import LiveView
     from runtime.warmup import prepare
@@ -64,6 +65,7 @@ __all__ = [
     "Stuck",
     "TurnedAway",
     "Viewer",
+    "Waiting",
     "World",
     "WorldState",
     "__version__",

@@ -25,6 +25,7 @@ __all__ = [
     "Stuck",
     "Told",
     "TurnedAway",
+    "Waiting",
     "event_text",
 ]
 
@@ -206,6 +207,17 @@ class Told(Event):
 
     def _what(self) -> str:
         return f"is told to do something else: {self.why}"
+
+
+@dataclass(frozen=True)
+class Waiting(Event):
+    """The agent is on its way to ``goal``, and what comes next of an open world is not loaded yet: it stands
+    until it is, and then sets out again (`Departed`)."""
+
+    goal: Point
+
+    def _what(self) -> str:
+        return f"waits for what is to be loaded on its way to {_place(self.goal)}"
 
 
 def event_text(values: Mapping[str, Any]) -> str:

@@ -1,7 +1,8 @@
 """A world of which only what is near the players is loaded, and routes through all of it."""
 
+import hashlib
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
 from numbers import Integral, Real
@@ -15,6 +16,7 @@ from navmesh.graph.node_graph import NodeGraph
 from navmesh.graph.open_to_body import checked_radius, checked_skills
 from navmesh.level.chunks import join_chunks
 from navmesh.level.terrain import Terrain
+from navmesh.streaming.choosing import HOLD, distances, in_order, nearness
 from navmesh.streaming.coarse_graph import ANCHOR, AROUND
 from navmesh.streaming.coarse_search import parts_reached, shortest_chain
 from navmesh.streaming.world_folder import Body, read_chunk, read_index
@@ -24,7 +26,8 @@ __all__ = ["OpenWorld"]
 
 _NEARER = 0.01  # [m] by which a place must be nearer to a goal than the start, to be worth going to
 _CLOSE = 1.0  # [m] up to which a coarse waypoint counts as passed
-_TRIED = 16  # places on the way to a coarse waypoint before which nothing is loaded
+_ALONG = 64  # places on the way to a coarse waypoint that is not loaded, from which what is loaded is known;
+_TRIED = 16  # so many of those that are loaded are gone to, if one can
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,6 +86,14 @@ class OpenWorld:
         return self._index.names
 
     @property
+    def digest(self) -> str:
+        """Hexadecimal digest of all chunks and of what the world was baked with, whatever is loaded."""
+        index = self._index
+        rules = None if index.obstacle_rules is None else sorted(index.obstacle_rules.to_dict().items())
+        content = index.names, index.digests, sorted(index.rules.to_dict().items()), rules, self.radii
+        return hashlib.sha256(repr(content).encode()).hexdigest()[:32]
+
+    @property
     def radii(self) -> tuple[float, ...]:
         """[m] of the bodies that the world was baked for, rising."""
         return tuple(body.radius for body in self._index.bodies)
@@ -98,17 +109,40 @@ class OpenWorld:
         (one at a time), while others ask for routes on what was loaded before. Raises `ArchiveError` for a
         chunk's file that is missing or damaged; what is loaded is then as it was.
         """
-        where = _points("points", points)
+        return self.change(self.next_changes(points, changes))
+
+    def next_changes(
+        self, points: Any, changes: int = 1, held: Any = (), needed: Any = ()
+    ) -> tuple[str, ...]:
+        """Names of the chunks that `keep_around` would load and drop with the same arguments, in order. None
+        is dropped that is at most `navmesh.streaming.choosing.HOLD` [m] away from places ``held`` (m, 3) [m],
+        and what makes places ``needed`` (n, 3) [m] be loaded (`is_loaded`) is loaded, too, however far away
+        that is. Takes no time to speak of."""
+        where, kept, extra = _points("points", points), _points("held", held), _points("needed", needed)
         if isinstance(changes, bool) or not isinstance(changes, Integral) or changes < 1:
             raise NavmeshError(f"changes = {changes!r}: expected a whole number of at least 1")
-        window, index = self._window, self._index
-        off = _distances(where, index.bounds).min(axis=0, initial=inf)
-        order = np.argsort(off, kind="stable")
-        wanted = order[(off[order] <= self._radius) & ~window.loaded[order]]
-        surplus = order[::-1][(off[order[::-1]] > self._drop_beyond) & window.loaded[order[::-1]]]
-        chosen = [*wanted.tolist(), *surplus.tolist()][: int(changes)]
-        if not chosen:
+        bounds, loaded = self._index.bounds, self._window.loaded
+        off, near = nearness(bounds, where), nearness(bounds, extra) <= self._margin
+        wanted = (off <= self._radius) | near
+        kept_too = (off <= self._drop_beyond) | (nearness(bounds, kept) <= HOLD) | near
+        chosen = in_order(off, wanted & ~loaded, loaded & ~kept_too)
+        return tuple(self._index.names[k] for k in chosen[: int(changes)])
+
+    def change(self, names: Sequence[str]) -> dict[str, Terrain | None]:
+        """Load those of the chunks ``names`` that are not loaded, and drop those that are; returns what was
+        changed, takes the time and raises `ArchiveError` as `keep_around` does. Raises `NavmeshError` for
+        names that no chunk has.
+
+        A copy (`copy.copy`) has a window of its own: it can be changed in a thread while this world is used.
+        """
+        index, window = self._index, self._window
+        number = {name: k for k, name in enumerate(index.names)}
+        unknown = sorted(set(names) - set(number))
+        if unknown:
+            raise NavmeshError(f"there is no chunk {unknown[0]!r} in {self._folder}; see OpenWorld.chunks")
+        if not names:
             return {}
+        chosen = [number[name] for name in names]
         found = {
             index.names[k]: None if window.loaded[k] else read_chunk(self._folder, index, k) for k in chosen
         }
@@ -142,7 +176,7 @@ class OpenWorld:
 
     def _covers(self, window: _Window, points: np.ndarray) -> np.ndarray:
         missing = ~window.loaded
-        return ~(_distances(points, self._index.bounds[missing]) <= self._margin).any(axis=1)
+        return ~(distances(points, self._index.bounds[missing]) <= self._margin).any(axis=1)
 
     def route(
         self,
@@ -184,6 +218,10 @@ class OpenWorld:
             return WorldRoute(status, radius, None, points, float(lengths.sum()))
         far = np.linalg.norm(points - first, axis=1) > _CLOSE
         for at in range(there - 1, 0, -1):
+            if at == there - 1 and there < len(points):
+                gained = np.linalg.norm(points[there] - first) - np.linalg.norm(points[there] - points[at])
+                if gained <= 0.0:  # it is past this waypoint, at the end of what is loaded
+                    continue
             fine = window.graph.find_path(first, points[at], radius, skills)
             if fine.status == "complete" and (far[at] or at == len(points) - 1):
                 return WorldRoute(status, radius, fine, points[at + 1 :], float(lengths[at:].sum()))
@@ -199,8 +237,13 @@ class OpenWorld:
     def _toward(self, window: _Window, start: np.ndarray, end: np.ndarray) -> np.ndarray:
         """Points (k, 3) [m] on the straight line from ``start`` to ``end`` that are loaded, the farthest
         first."""
-        line = start + np.linspace(1.0, 0.0, _TRIED, endpoint=False)[:, None] * (end - start)
-        return line[self._covers(window, line)]
+        line = start + np.linspace(1.0, 0.0, _ALONG, endpoint=False)[:, None] * (end - start)
+        there = line[self._covers(window, line)]
+        return (
+            there[np.unique(np.linspace(0, len(there) - 1, _TRIED).round().astype(int))]
+            if len(there)
+            else there
+        )
 
     def _ends(
         self, window: _Window, body: Body, region: int, place: np.ndarray, radius: float
@@ -276,14 +319,6 @@ def _or_none(make: Any) -> NodeGraph | None:
         return make()
     except NoFloorError:
         return None
-
-
-def _distances(points: np.ndarray, bounds: np.ndarray) -> np.ndarray:
-    """(k, c) [m]: how far ``points`` (k, 3) are from boxes (c, 2, 3), seen from above."""
-    low, high = bounds[:, 0, :2], bounds[:, 1, :2]
-    at = points[:, None, :2]
-    off = np.maximum(np.maximum(low - at, at - high), 0.0)
-    return np.hypot(off[..., 0], off[..., 1])
 
 
 def _length(name: str, value: Any) -> float:

@@ -2,7 +2,7 @@
 
 import hashlib
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Any, TypeVar
@@ -35,7 +35,9 @@ from runtime.events import (
     SkillStarted,
     Stuck,
     TurnedAway,
+    Waiting,
 )
+from runtime.planning.beyond import Beyond, loaded_part
 from runtime.planning.planning import NoWay, Plan
 from runtime.traffic.waiting_and_deadlock import Headway
 from runtime.world.agent_services import Host
@@ -50,6 +52,7 @@ _CARRIED_OFF = 0.5  # [m] beside its path from which a person that has got up ta
 _ATTEMPTS = 3  # of a person that is stuck or lost to find another way to its goals
 _TURNINGS = 6  # times that it goes back before the same obstacle, until it is stuck
 _Kind = TypeVar("_Kind")
+_AT_REST = "standing", "arrived"
 _HELPLESS = bodily.GotStuck, bodily.StrayedFromPath, bodily.MissedGoal
 
 
@@ -58,7 +61,8 @@ class Errand:
     """What an agent was told: `Agent.go_to`'s arguments. ``doubtful``: the level has changed while it could
     not look for another way. ``attempts``: how often it was stuck or lost on its way. ``balked``: tags of the
     obstacles before which it went back for another run-up, once for each time; ``closed``: of those that it
-    has given up."""
+    has given up. ``beyond``: what of its way is not loaded yet, in an open world; ``length`` [m]: of the
+    whole way when it set out, 0 if all was loaded; ``waits``: whether it stands until more is loaded."""
 
     goals: tuple[tuple[float, float, float], ...] = ()
     speed: float = 0.0
@@ -67,6 +71,9 @@ class Errand:
     attempts: int = 0
     balked: tuple[str, ...] = ()
     closed: tuple[str, ...] = ()
+    beyond: Beyond | None = None
+    length: float = 0.0
+    waits: bool = False
 
 
 @dataclass(frozen=True)
@@ -90,7 +97,8 @@ class AgentState:
         """Raises `RuntimeInputError` for what no agent can have saved, as far as that shows without its
         body."""
         errand = self.errand
-        numbers = [self.born, *self.goal, errand.speed, errand.facing or 0.0, *chain(*errand.goals)]
+        told = errand.speed, errand.facing or 0.0, *chain(*errand.goals), errand.length
+        numbers = [self.born, *self.goal, *told]
         if not np.isfinite(numbers).all():
             raise RuntimeInputError(f"{name} has been told numbers that are not finite")
         headway = self.headway
@@ -98,6 +106,11 @@ class AgentState:
             raise RuntimeInputError(f"{name} remembers of its way what is no number")
         if not name or errand.attempts < 0 or (errand.goals and errand.speed <= 0.0):
             raise RuntimeInputError(f"{name!r} has been told what nobody can do")
+        beyond = errand.beyond
+        if beyond is not None:
+            beyond.check(name, len(errand.goals))
+        elif errand.waits:
+            raise RuntimeInputError(f"{name!r} waits for nothing")
         try:
             by_hand(None, **self.style)
         except LocomotionError as error:
@@ -182,13 +195,30 @@ class Agent:
     def status(self) -> str:
         """What it does: "standing", "walking", "running" (of a quadruped: on its way), "arrived", "lost",
         "stuck", of a human also "jumping", "vaulting", "dropping", "leaping", "scrambling", "getting
-        up" and "fallen"; or "blocked": the last goal cannot be reached."""
-        return "blocked" if self._blocked else self._driver.status
+        up" and "fallen"; or "blocked": the last goal cannot be reached; or "waiting": it stands until more of
+        an open world is loaded on its way."""
+        if self._blocked:
+            return "blocked"
+        status = self._driver.status
+        return "waiting" if self._errand.waits and status in _AT_REST else status
 
     @property
     def moving(self) -> bool:
         """Whether it is on its way: walking, running or clearing an obstacle."""
         return self._driver.status in MOVING
+
+    @property
+    def told_to(self) -> tuple[float, float, float] | None:
+        """(3,) [m] Where what is loaded ends of a way that it is on in an open world; None for other ways."""
+        beyond = self._errand.beyond
+        return None if beyond is None or not beyond.told else beyond.told[-1]
+
+    @property
+    def waits_for(self) -> tuple[float, float, float] | None:
+        """(3,) [m] The place in an open world that has to be loaded before it can go on; None while it does
+        not wait."""
+        errand = self._errand
+        return errand.beyond.towards if errand.waits and errand.beyond is not None else None
 
     @property
     def position(self) -> np.ndarray:
@@ -208,8 +238,14 @@ class Agent:
 
     @property
     def progress(self) -> float:
-        """Share of its path that is behind it, 0 to 1."""
-        return self._driver.progress
+        """Share of its path that is behind it, 0 to 1; of one that leads through what is not loaded of an
+        open world, as far as that is known."""
+        errand = self._errand
+        if errand.length == 0.0:
+            return self._driver.progress
+        waits = self.status == "waiting"
+        left = (0.0 if waits else self._driver.left) + (errand.beyond.length if errand.beyond else 0.0)
+        return min(max(1.0 - left / errand.length, 0.0), 1.0)
 
     @property
     def skills(self) -> Mapping[str, tuple[float, float]]:
@@ -341,7 +377,7 @@ class Agent:
         """Be moved at another level of detail from now on, if that can be now, or ``at_once`` in any case; it
         goes on with what it does. The world calls this."""
         self.notice()
-        going, goals = self.moving, self._goals_left if self._errand.goals else None
+        going, goals = self.moving, self._points_left if self._errand.goals else None
         traits = self._driver.traits
         driver = self._host.at_level(self, level, at_once)
         self.waits_for_level = driver is None or driver.detail != self._detail
@@ -366,9 +402,14 @@ class Agent:
             self._driver.stop()
 
     def plan(self, point: ArrayLike) -> Plan:
-        """The way that `go_to` would take, not taken. Raises `runtime.planning.planning.NoWay`, and
-        `RuntimeInputError` as `go_to` does."""
-        return self._driver.plan(checked_points(point, "point"))
+        """The way that `go_to` would take, not taken; in an open world as far as it is loaded. Raises
+        `runtime.planning.planning.NoWay`, and `RuntimeInputError` as `go_to` does."""
+        goals = checked_points(point, "point")
+        beyond, plan = self._ways(goals, lambda points, _: self._driver.plan(points))
+        if plan is None:
+            assert beyond is not None
+            raise NoWay(beyond.full, "what comes first of the way is not loaded yet")
+        return plan
 
     def go_to(self, point: ArrayLike, speed: float = 3.5, facing: float | None = None) -> str:
         """Set out for ``point`` (3,) [m], or through several (k, 3) in order, at up to ``speed`` [m/s]; a
@@ -377,9 +418,14 @@ class Agent:
         did, and `way` is the shortest line with sharp corners. For other bodies it is planned at once, in
         time in proportion to the way.
 
-        Returns the status: "walking", "running", or "blocked" when there is no way (an event says why; the
-        agent then keeps doing what it did). Raises `RuntimeInputError` for a point that is not finite
-        numbers, a speed that is not above 0, or an agent that has fallen or was removed.
+        In an open world the goals need not be loaded. Whether they can be reached is known at once; the agent
+        goes as far as its way is loaded, and farther as more of it is. Where nothing more is it stands, with
+        `Waiting`, and goes on by itself.
+
+        Returns the status: "walking", "running", "waiting" for what is not loaded of an open world, or
+        "blocked" when there is no way (an event says why; the agent then keeps doing what it did). Raises
+        `RuntimeInputError` for a point that is not finite numbers, a speed that is not above 0, or an agent
+        that has fallen or was removed.
         """
         goals, speed = checked_points(point, "point"), checked_number(speed, "speed", "m/s")
         if speed <= 0.0:
@@ -387,17 +433,48 @@ class Agent:
         facing = None if facing is None else checked_number(facing, "facing", "rad")
         if len(goals) == 1 and not self.moving and self._has_come(goals[0]):
             self._goal, self._blocked = _triple(goals[0]), False
+            self._errand = replace(self._errand, beyond=None, length=0.0, waits=False)
             return self.status
         follower = None if self._driver.plans_in_slices else self._driver.follower
         former = None if follower is None else follower.course()
         try:
-            plan = self._driver.go_to(goals, speed, facing)
+            beyond, plan = self._ways(goals, self._teller(speed, facing))
         except NoWay as error:
             self._report_blocked(goals[error.goal], error.reason)
             return self.status
-        self._errand = Errand(tuple(_triple(each) for each in goals), speed, facing)
-        self._depart(plan, former)
+        errand = Errand(tuple(_triple(each) for each in goals), speed, facing, beyond=beyond)
+        if beyond is not None:
+            errand = replace(errand, length=beyond.length + (0.0 if plan is None else plan.length))
+        self._errand = errand
+        if plan is None:
+            self._wait()
+        else:
+            self._depart(plan, former)
         return self.status
+
+    def _teller(self, speed: float, facing: float | None) -> Callable[[np.ndarray, bool], Plan]:
+        """What tells its driver to go: at the end of a way it takes the ``facing``, before that none."""
+        return lambda points, whole: self._driver.go_to(points, speed, facing if whole else None)
+
+    def _ways(
+        self, goals: np.ndarray, tell: Callable[[np.ndarray, bool], Plan]
+    ) -> tuple[Beyond | None, Plan | None]:
+        """What is not loaded yet of the way through ``goals`` (k, 3), None if all is; and the plan for the
+        rest, which ``tell`` gives for points (n, 3), and whether they are the whole way: None where nothing
+        is loaded to go on. Raises `NoWay`."""
+        world = self._host.open_world()
+        if world is None:
+            return None, tell(goals, True)
+        if world.is_loaded(goals).all():
+            try:
+                return None, tell(goals, True)
+            except NoWay:
+                if len(world.loaded) == len(world.chunks):
+                    raise
+        beyond = loaded_part(world, self.position, goals, self.radius, self.skills)
+        if beyond is None:
+            return None, tell(goals, True)
+        return beyond, tell(np.array(beyond.told), False) if beyond.told else None
 
     def _has_come(self, goal: np.ndarray) -> bool:
         """Whether one at rest that gives way by its path is as near to ``goal`` (3,) as those who stand there
@@ -415,18 +492,58 @@ class Agent:
             self._driver.stop()
         self._errand, self._blocked = Errand(), False
 
-    def _depart(self, plan: Plan, former: Course | None = None) -> None:
-        """Report that it has taken the way of ``plan``; ``former`` is the course that it was on."""
-        self._blocked = False
+    def _wait(self) -> None:
+        """Stand until more of its way is loaded."""
+        if self.moving:
+            self._driver.stop()
+        self._blocked, self._errand = False, replace(self._errand, waits=True)
         here, goal = _triple(self.position), self._errand.goals[-1]
+        self._tell(Waiting(self._host.clock.time, self.name, here, goal))
+
+    def _come_to_the_end(self, beyond: Beyond) -> None:
+        """It is where what was loaded of its way ended: go on if more is, or wait."""
+        goals = self._errand.goals[beyond.full :]
+        if not self._goes_farther(np.array(goals)):
+            self._errand = replace(self._errand, goals=goals, beyond=replace(beyond, told=(), full=0))
+            self._wait()
+
+    def _goes_farther(self, goals: np.ndarray) -> bool:
+        """Whether more is loaded now of a way through ``goals`` (k, 3) that was not loaded as a whole: it
+        then takes it, or stops if it turns out that there is none for it."""
+        errand, world = self._errand, self._host.open_world()
+        if errand.beyond is None or world is None or not world.is_loaded(errand.beyond.towards)[0]:
+            return False
+        follower = None if self._driver.plans_in_slices else self._driver.follower
+        former = None if follower is None else follower.course()
+        try:
+            beyond, plan = self._ways(goals, self._teller(errand.speed, errand.facing))
+        except (NoWay, RuntimeInputError, LocomotionError) as error:
+            at, reason = (error.goal, error.reason) if isinstance(error, NoWay) else (0, str(error))
+            self.stop()
+            self._report_blocked(goals[at], reason)
+            return True
+        if plan is None:
+            return False
+        left = tuple(_triple(each) for each in goals)
+        self._errand = replace(errand, goals=left, beyond=beyond, waits=False)
+        self._depart(plan, former, told=errand.waits)
+        return True
+
+    def _depart(self, plan: Plan, former: Course | None = None, told: bool = True) -> None:
+        """Report that it has taken the way of ``plan``, if that is to be ``told``; ``former`` is the course
+        that it was on."""
+        self._blocked = False
+        here, goal, beyond = _triple(self.position), self._errand.goals[-1], self._errand.beyond
         self._goal = _triple(plan.points[-1])
         follower = self._driver.follower
         if follower is not None and not self._driver.plans_in_slices:
             self._host.traffic.look_out(follower, former)
         now = self._host.clock.time
         self._headway = Headway(since=now, tried=now)
-        skills = tuple(skill_kind(each).skill for each in plan.skills)
-        self._tell(Departed(now, self.name, here, goal, plan.length, skills))
+        if told:
+            skills = tuple(skill_kind(each).skill for each in plan.skills)
+            length = plan.length + (0.0 if beyond is None else beyond.length)
+            self._tell(Departed(now, self.name, here, goal, length, skills))
 
     def _report_blocked(self, goal: np.ndarray, reason: str) -> None:
         self._blocked = True
@@ -457,11 +574,14 @@ class Agent:
 
     def look_at_way(self) -> None:
         """After a change of the level: go on where the way holds, look for another one where it does not, and
-        stop where there is none. One that is clearing an obstacle first does that."""
+        stop where there is none. One that is clearing an obstacle first does that. In an open world go
+        farther if more of the way is loaded."""
         if self.status in CLEARING.values():
             self._errand = replace(self._errand, doubtful=True)
             return
         self._errand = replace(self._errand, doubtful=False)
+        if (self.moving or self.status == "waiting") and self._goes_farther(self._goals_left):
+            return
         if not self.moving or self._driver.way_holds():
             return
         goals = self._goals_left
@@ -476,14 +596,23 @@ class Agent:
     @property
     def _goals_left(self) -> np.ndarray:
         """(k, 3) [m]: the goals that are still before it."""
-        return np.array(self._errand.goals[-self._driver.goals_left :])
+        errand, beyond = self._errand, self._errand.beyond
+        if errand.waits or beyond is None:
+            return np.array(errand.goals if errand.waits else errand.goals[-self._driver.goals_left :])
+        return np.array(errand.goals[min(len(beyond.told) - self._driver.goals_left, beyond.full) :])
+
+    @property
+    def _points_left(self) -> np.ndarray:
+        """(k, 3) [m]: what its body was told of them, as far as that is loaded."""
+        beyond = self._errand.beyond
+        return np.array((self._errand.goals if beyond is None else beyond.told)[-self._driver.goals_left :])
 
     def _goes_another_way(self, round_it: bool = False) -> bool:
         """Whether a person finds another way to its goals from where it is, and takes it; ``round_it``: over
         no obstacle, or at least not over the next one, if there is such a way."""
         if not self._errand.goals or not self._driver.tries_other_ways:
             return False
-        goals, speed, closed = self._goals_left, self._errand.speed, self._errand.closed
+        goals, speed, closed = self._points_left, self._errand.speed, self._errand.closed
         try:
             if round_it:
                 plan, closed = self._driver.go_round(goals, speed, closed)
@@ -532,6 +661,9 @@ class Agent:
         if follower is not None and left is not None:
             self._host.traffic.look_out(follower, *left)
         for event in self.news:
+            if isinstance(event, bodily.Arrived) and self._errand.beyond is not None:
+                self._come_to_the_end(self._errand.beyond)
+                continue
             if isinstance(event, bodily.WentBack):
                 self._balks(event)
                 continue
@@ -610,6 +742,8 @@ class Agent:
             own = hashlib.sha256(f"{own} {self._bravery!r}".encode()).hexdigest()
         if self._style:
             own = hashlib.sha256(f"{own} {sorted(self._style.items())!r}".encode()).hexdigest()
+        if self._errand.beyond is not None:
+            own = hashlib.sha256(f"{own} {self._errand!r}".encode()).hexdigest()
         return own
 
     def _translated(self, event: bodily.Event) -> Event | None:

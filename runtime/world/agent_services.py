@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from itertools import count
 from typing import Any
 
+import navmesh
 from locomotion.body.person import CONTROL_DT
 from runtime.bodies.protocol import Driver
 from runtime.traffic.traffic import Traffic
@@ -35,7 +36,8 @@ class Clock:
 class Host:
     """``remove`` takes a `runtime.Agent` out of the world; ``at_level`` gives the driver of an agent at a
     level of detail (and whether at once), None while it cannot have it; ``levels`` those that a body has;
-    ``arrivals`` numbers the bodies as they come."""
+    ``open_world`` gives the open world as it is loaded now, None where the level is another; ``arrivals``
+    numbers the bodies as they come."""
 
     clock: Clock
     log: EventLog
@@ -43,4 +45,5 @@ class Host:
     remove: Callable[[Any], None]
     at_level: Callable[[Any, str, bool], Driver | None]
     levels: Callable[[str], tuple[str, ...]]
+    open_world: Callable[[], navmesh.OpenWorld | None]
     arrivals: Iterator[int] = field(default_factory=count)

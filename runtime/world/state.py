@@ -14,6 +14,7 @@ from runtime.events import Event
 from runtime.world.agent import AgentState
 from runtime.world.level_of_detail import Budget, Viewer
 from runtime.world.state_file import DTYPES, pack, unpack
+from runtime.world.streaming import StreamingState
 from surefoot.files.archive import read_archive, write_archive
 from surefoot.files.schema import Array, Flags, Header, Schema
 from surefoot.words import several
@@ -42,6 +43,8 @@ class WorldState:
     budget: Budget = field(default_factory=Budget)
     blocked: tuple[str, ...] = ()
     """Zones of the level's graph that are blocked, in the order of their names."""
+    streaming: StreamingState | None = None
+    """What of an open world is loaded; None for another level."""
 
     def __repr__(self) -> str:
         return f"<WorldState after {self.ticks} ticks: {several(len(self.agents), 'agent')}>"

@@ -35,6 +35,8 @@ from runtime.world.event_log import EventLog
 from runtime.world.level_of_detail import AUTO, LEVELS, PHYSICS, Budget, Viewer, checked_detail, levels_for
 from runtime.world.level_of_detail import EVERY as LOOKS
 from runtime.world.state import WorldState
+from runtime.world.streaming import EVERY as CHANGES_CHUNKS
+from runtime.world.streaming import Streaming, checked_players
 from surefoot.pausing import pause
 from surefoot.preparing import prepare_once
 from surefoot.words import several
@@ -77,8 +79,10 @@ class World:
     Making one takes load time: it compiles what is not compiled yet, and builds a graph of a terrain. Its
     methods say what time they take: constant, sliced over the ticks, or load time.
 
-    ``terrain`` is the level; or a graph that was built or loaded, whose rules should suit a person. The same
-    seed and the same calls give the same run, bit for bit.
+    ``terrain`` is the level; or a graph that was built or loaded, whose rules should suit a person; or an
+    open world of which something is loaded (`navmesh.OpenWorld.keep_around`): the world has its own copy,
+    loads and drops chunks around its `players`, and lets agents go to places that are not loaded yet. The
+    same seed and the same calls give the same run, bit for bit.
 
     ``skills``: files that describe skills of your own (`locomotion.skills.description`), which its people
     have besides the package's; a graph that it builds counts what they clear among the obstacles. Raises
@@ -101,7 +105,7 @@ class World:
 
     def __init__(
         self,
-        terrain: navmesh.Terrain | navmesh.NodeGraph,
+        terrain: navmesh.Terrain | navmesh.NodeGraph | navmesh.OpenWorld,
         seed: int = 0,
         skills: Sequence[str | os.PathLike[str]] = (),
         rehearsals: int = REHEARSALS,
@@ -124,13 +128,18 @@ class World:
                 learned_skills(load_run_skill(), self._skills)
             except LocomotionError as error:
                 raise RuntimeInputError(str(error)) from None
-        if isinstance(terrain, navmesh.NodeGraph):
+        self._streaming: Streaming | None = None
+        if isinstance(terrain, navmesh.OpenWorld):
+            self._streaming = Streaming(terrain, checked_whole(threads, "threads", least=1))
+            graph = self._streaming.level().graph
+        elif isinstance(terrain, navmesh.NodeGraph):
             graph = copy(terrain) if terrain.zones else terrain  # its doors are its own
         elif isinstance(terrain, navmesh.Terrain):
             graph = navmesh.NodeGraph.build(terrain, person_walk_rules(), obstacle_rules(own))
         else:
             raise RuntimeInputError(
-                f"a world is made of a Terrain or a NodeGraph, not of a {type(terrain).__name__}"
+                "a world is made of a Terrain, a NodeGraph or an OpenWorld, "
+                f"not of a {type(terrain).__name__}"
             )
         self.agents: dict[str, Agent] = {}
         self.random = np.random.default_rng(seed)
@@ -160,6 +169,7 @@ class World:
             self.remove,
             self._at_level,
             lambda body: kind_of(body).levels,
+            lambda: None if self._streaming is None else self._streaming.world,
         )
         self._viewers: tuple[Viewer, ...] = ()
         self._budget = Budget()
@@ -182,7 +192,9 @@ class World:
 
     @property
     def level_digest(self) -> str:
-        """Hexadecimal digest of the level and the rules of its graph."""
+        """Hexadecimal digest of the level and the rules of its graph; of an open world that of all of it."""
+        if self._streaming is not None:
+            return self._streaming.world.digest
         rules = repr(sorted(self.graph.rules.to_dict().items()))
         return hashlib.sha256(f"{self.graph.terrain.digest}{rules}".encode()).hexdigest()[:32]
 
@@ -237,6 +249,51 @@ class World:
             raise RuntimeInputError(f"budget must be a runtime.Budget, not {budget!r}")
         self._budget = budget
 
+    @property
+    def players(self) -> tuple[Agent | tuple[float, float, float], ...]:
+        """Around whom chunks of an open world are kept loaded: agents, wherever they go, and places (3,) [m].
+
+        Every half second of simulated time up to two chunks are loaded or dropped as `navmesh.OpenWorld` has
+        it, and the ground and the graph change together. None is dropped that is at most 20 m away from an
+        agent, whether it is a player or not, so nobody loses the ground under its feet. With no players
+        nothing changes. Part of the input of a run, saved with it. Can be set to a list; raises
+        `RuntimeInputError` for anything else, and where the world is not open.
+        """
+        if self._streaming is None:
+            return ()
+        return tuple(self.agents[each] if isinstance(each, str) else each for each in self._streaming.players)
+
+    @players.setter
+    def players(self, players: Sequence[Agent | ArrayLike]) -> None:
+        self._open_world().players = checked_players(players, self.agents)
+
+    @property
+    def loaded(self) -> tuple[str, ...]:
+        """Names of the chunks of an open world that are loaded, in alphabetical order."""
+        return () if self._streaming is None else self._streaming.world.loaded
+
+    def keep_around(self, places: ArrayLike, changes: int = 1) -> dict[str, navmesh.Terrain | None]:
+        """Load and drop up to so many ``changes`` of an open world's chunks at once, as ``places`` (3,) or
+        (k, 3) [m] want it, such as while a level is loaded or before an agent appears elsewhere; `players` do
+        that by themselves. Takes load time.
+
+        Returns what has changed, as `navmesh.OpenWorld.keep_around`: empty when nothing is left to do. What
+        agents stand on is not dropped, nor the last that one can walk on. Raises `RuntimeInputError` where
+        the world is not open, and what `navmesh.OpenWorld.keep_around` raises.
+        """
+        level, found = self._open_world().keep_around(places, changes, self.agents)
+        if level is not None:
+            self._go_on_on(level)
+        return found
+
+    def _open_world(self) -> Streaming:
+        if self._streaming is None:
+            raise RuntimeInputError(
+                "the level is loaded as a whole; make the world of a navmesh.OpenWorld to have chunks of it "
+                "loaded and dropped"
+            )
+        return self._streaming
+
     def spawn(
         self,
         body: str,
@@ -285,6 +342,7 @@ class World:
         if radius is not None and checked_number(radius, "radius", "m") <= 0.0:
             raise RuntimeInputError(f"radius must be above 0 m, not {radius!r}")
         size = kind.radius(body) if radius is None else float(radius)
+        self._check_open_to(body, place, size)
         here = self.graph.find_path(place, place, radius=size)
         if here.status != "complete":
             raise RuntimeInputError(f"{place.tolist()} is not near a place where a {body} fits")
@@ -304,6 +362,21 @@ class World:
             self._population(body).prepare_levels()
             agent.detail = detail
         return agent
+
+    def _check_open_to(self, body: str, place: np.ndarray, size: float) -> None:
+        """Raises `RuntimeInputError` where an open world has nothing loaded for a body of a ``size`` [m]."""
+        if self._streaming is None:
+            return
+        world = self._streaming.world
+        if size > world.radii[-1]:
+            raise RuntimeInputError(
+                f"a {body} has a radius of {size:g} m, the open world was baked for bodies of up to "
+                f"{world.radii[-1]:g} m; bake it with radii=(..., {size:g})"
+            )
+        if not world.is_loaded(place)[0]:
+            raise RuntimeInputError(
+                f"{place.tolist()} is not loaded; call keep_around(places) of the world first"
+            )
 
     def admit(self, body: str, name: str, state: Any) -> Agent:
         """Add an agent that comes in from elsewhere, in the ``state`` that its population revives it from
@@ -357,6 +430,8 @@ class World:
             raise RuntimeInputError(f"{agent.name} is not in this world")
         self._population(agent.body).remove(agent.driver)
         del self.agents[agent.name]
+        if self._streaming is not None:
+            self._streaming.forget(agent.name)
         self._forget_order()
         agent.leave()
 
@@ -368,14 +443,22 @@ class World:
         the same goals, and stop, with `Blocked`, where there is none. If its ground is removed, a quadruped
         stops and a walker stays where it is (both with `Lost`), and a person falls. Raises
         `navmesh.NavmeshError` for the removal of a chunk that is not there and when nothing walkable is left,
-        `RuntimeInputError` for what is no mapping; the world is then as it was.
+        `RuntimeInputError` for what is no mapping, and in an open world, which changes by `keep_around` and
+        `players`; the world is then as it was.
         """
+        if self._streaming is not None:
+            raise RuntimeInputError(
+                "an open world is as it was baked; its chunks come and go with players and keep_around"
+            )
         if not isinstance(changes, Mapping):
             raise RuntimeInputError(f"changes are a {type(changes).__name__}; give {{chunk's name: Terrain}}")
         graph = self.graph.update(changes)
         if graph is self.graph:
             return
-        level = Level.of(graph)
+        self._go_on_on(Level.of(graph))
+
+    def _go_on_on(self, level: Level) -> None:
+        """Let all go on on another level."""
         self._level.graph, self._level.ground = level.graph, level.ground
         for population in self._populations:
             population.change_level()
@@ -469,6 +552,10 @@ class World:
                 if made == due:
                     for population in self._populations:
                         population.remember()
+                if self._streaming is not None and clock.ticks % CHANGES_CHUNKS == 0:
+                    level = self._streaming.turn(self.agents)
+                    if level is not None:
+                        self._go_on_on(level)
                 if clock.ticks % EVERY == 0:
                     self._traffic.direct(clock.ticks)
                 clock.ticks += 1
@@ -513,6 +600,8 @@ class World:
             pause()
         if self._blocked:
             checksum.update(repr(self._blocked).encode())
+        if self._streaming is not None:
+            checksum.update(repr(self._streaming.save()).encode())
         order = _by_arrival(self.agents)
         if order != list(self.agents):
             checksum.update(repr(order).encode())
@@ -549,6 +638,7 @@ class World:
             viewers=self._viewers,
             budget=self._budget,
             blocked=self._blocked,
+            streaming=None if self._streaming is None else self._streaming.save(),
         )
 
     def restore(self, state: WorldState) -> None:
@@ -593,6 +683,8 @@ class World:
 
     def _become(self, state: WorldState, known: Mapping[str, Agent]) -> None:
         """Go to ``state``; those of its agents that are ``known`` by name and body are the same objects."""
+        if self._streaming is not None:
+            self._reload(self._streaming, state)
         if state.blocked != self._blocked:
             self.graph.open(*set(self._blocked) - set(state.blocked))
             self.graph.block(*state.blocked)
@@ -612,6 +704,22 @@ class World:
         self._forget_order()
         self._log.become(state.events, state.untold)
         self._viewers, self._budget = state.viewers, state.budget
+        if self._streaming is not None and state.streaming is not None:
+            self._streaming.players = state.streaming.players
+
+    def _reload(self, streaming: Streaming, state: WorldState) -> None:
+        """Have loaded what was loaded in ``state``. Who was on something else is made anew."""
+        if state.streaming is None:
+            raise RuntimeInputError("the state does not say what of the open world was loaded")
+        players = [each for each in state.streaming.players if isinstance(each, str)]
+        if not set(players) <= set(state.agents):
+            raise RuntimeInputError("the state has players that are none of its agents")
+        level = streaming.load(state.streaming)
+        if level is None:
+            return
+        for agent in tuple(self.agents.values()):
+            self.remove(agent)
+        self._go_on_on(level)
 
     def _populate(self, state: WorldState, known: Mapping[str, Agent]) -> None:
         """Make the agents those of ``state``, in their order, whose bodies come in the order in which they

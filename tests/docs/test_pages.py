@@ -186,7 +186,7 @@ def test_the_page_of_events_has_all_of_them_with_their_fields() -> None:
 def test_the_page_of_events_has_all_statuses() -> None:
     page = (ROOT / "docs" / "reference" / "events.md").read_text().partition("## Statuses")[2]
     first_cells = " ".join(line.split("|")[1] for line in page.splitlines() if line.startswith("| `"))
-    assert set(re.findall(r"`([a-z ]+)`", first_cells)) == {*BUSY, *CLEARING.values(), "blocked"}
+    assert set(re.findall(r"`([a-z ]+)`", first_cells)) == {*BUSY, *CLEARING.values(), "blocked", "waiting"}
 
 
 def _is_event(value: object) -> bool:

@@ -87,3 +87,15 @@ def _until(condition):
     while not condition():
         assert time.monotonic() < deadline, "nothing of the kind happened in 120 s"
         time.sleep(0.3)
+
+
+def test_people_walk_through_a_city_that_loads_around_one_of_them(tmp_path):
+    picture = tmp_path / "people.png"
+    command = [sys.executable, "examples/open_world_people.py", "--blocks", "4", "--window", "40"]
+    answer = subprocess.run(
+        [*command, "--seconds", "16", "--picture", str(picture)],
+        cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    came = re.search(r"(\d+) chunks came", answer.stdout)
+    assert came and int(came[1]) > 0 and picture.is_file()
+    assert answer.stdout.count("sets out for") >= 4 and "loses its way" not in answer.stdout

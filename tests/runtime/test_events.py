@@ -19,6 +19,7 @@ from runtime.events import (
     Stuck,
     Told,
     TurnedAway,
+    Waiting,
     event_text,
 )  # fmt: skip
 
@@ -40,6 +41,7 @@ SENTENCES = {
     PostureReached(1.0, "ada", AT, "kneel", "rifle deployed"): "ada is in the posture kneel, rifle deployed",
     PostureReached(1.0, "ada", AT, "prone", ""): "ada is in the posture prone",
     TurnedAway(1.0, "ada", AT, "vault", 1.0, 0.284): "ada turns away from a vault of 1.00 m: odds 28 %",
+    Waiting(1.0, "ada", AT, GOAL): "ada waits for what is to be loaded on its way to (9.0, 3.0, -0.5)",
     Told(1.0, "ada", AT, "2 s are over"): "ada is told to do something else: 2 s are over",
 }  # fmt: skip
 

@@ -1,5 +1,7 @@
 """What is loaded is what the whole graph would be there, and routes answer for the whole world."""
 
+from copy import copy
+
 import numpy as np
 import pytest
 
@@ -258,3 +260,53 @@ def test_the_same_questions_get_the_same_answers():
 def test_wrong_input_is_refused(ask, message):
     with pytest.raises(NavmeshError, match=message):
         ask(open_world("pieces"))
+
+
+# --- what a world of agents asks for
+def row(tmp_path, radius):
+    rows = {f"{i:02}": terrain(plane(10.0 * i, 10.0 * i + 10.0, 0, 10)) for i in range(20)}
+    return OpenWorld(bake_open_world(rows, tmp_path / "world"), radius)
+
+
+def test_what_is_held_is_not_dropped_and_what_is_needed_is_loaded_last(tmp_path):
+    world = row(tmp_path, 12.0)
+    world.keep_around((55.0, 5.0, 0.0), 100)
+    assert world.loaded == ("04", "05", "06")
+    far = (155.0, 5.0, 0.0)
+    assert world.next_changes(far, 100) == ("15", "14", "16", "04", "05", "06")
+    assert world.next_changes(far, 100, held=(35.0, 5.0, 0.0)) == ("15", "14", "16", "06")
+    needed = world.next_changes((55.0, 5.0, 0.0), 100, needed=(105.0, 5.0, 0.0))
+    assert needed == ("10",)
+    world.change(needed)
+    assert world.is_loaded((105.0, 5.0, 0.0))[0] and not world.next_changes(
+        (55.0, 5.0, 0.0), 100, needed=(105.0, 5.0, 0.0)
+    )
+    assert world.next_changes((55.0, 5.0, 0.0), 100) == ("10",)
+
+
+def test_a_copy_has_a_window_of_its_own(tmp_path):
+    world = row(tmp_path, 12.0)
+    world.keep_around((55.0, 5.0, 0.0), 100)
+    graph, other = world.graph, copy(world)
+    assert list(other.change(["07", "04"])) == ["07", "04"]
+    assert world.loaded == ("04", "05", "06") and world.graph is graph
+    assert other.loaded == ("05", "06", "07")
+    assert other.change([]) == {}
+    world.change(["07", "04"])
+    assert agree(world.graph, other.graph)
+
+
+def test_a_chunk_that_there_is_not_cannot_be_changed(tmp_path):
+    world = row(tmp_path, 12.0)
+    with pytest.raises(NavmeshError, match="no chunk '20'"):
+        world.change(["01", "20"])
+    assert world.loaded == ()
+
+
+def test_the_digest_is_of_the_whole_world_whatever_is_loaded(tmp_path):
+    world = row(tmp_path, 12.0)
+    before = world.digest
+    world.keep_around((55.0, 5.0, 0.0), 100)
+    assert world.digest == before == OpenWorld(tmp_path / "world").digest
+    other = bake_open_world({"00": terrain(plane(0, 10, 0, 10))}, tmp_path / "other")
+    assert OpenWorld(other).digest != before

@@ -104,6 +104,9 @@ class Streaming:
         """Have loaded what was loaded in ``state``, and changed what was being changed: the level, None if it
         is as before. Raises `RuntimeInputError` for what no state of this world can be."""
         loaded, changed = set(state.loaded), set(state.changed)
+        places = [each for each in state.players if not isinstance(each, str)]
+        if not np.isfinite(places).all():
+            raise RuntimeInputError("the state has a player whose place is not finite")
         if not loaded | changed <= set(self.world.chunks):
             raise RuntimeInputError("the state has chunks that this open world does not have")
         names = tuple(sorted(loaded ^ set(self.world.loaded)))

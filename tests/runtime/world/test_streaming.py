@@ -162,6 +162,38 @@ def test_ground_and_graph_change_together_at_counted_moments():
     assert changed[:3] == [EVERY, 2 * EVERY, 3 * EVERY]
 
 
+def test_a_person_who_runs_does_not_notice_that_chunks_far_away_come_and_go():
+    def run(changes):
+        world = World(strip((60.0, 5.0, 0.0), radius=56.0), seed=2)
+        person = world.spawn("human", START)
+        person.go_to((30.0, 5.0, 0.0), speed=3.3)
+        if changes:
+            world.players = [(32.0, 5.0, 0.0)]
+        places = []
+        for _ in range(45):
+            world.step(0.2)
+            places.append(person.position)
+        return np.array(places), world.loaded
+
+    (still, before), (changing, after) = run(False), run(True)
+    assert len(after) < len(before) and still[-1, 0] > 20.0
+    assert np.abs(still - changing).max() < 1e-9
+
+
+@pytest.mark.parametrize("detail", ["full", "low"])
+def test_one_who_plays_recorded_motion_goes_on_after_a_change_of_detail(detail):
+    world = World(strip(), seed=1)
+    agent = world.spawn("human", START, detail=detail)
+    world.players = [agent]
+    agent.go_to(END, speed=3.0)
+    events = advance(world, 8.0)
+    agent.detail = "physics"
+    events += advance(world, 8.0, lambda: agent.level == "physics")
+    agent.detail = detail
+    events += advance(world, 60.0, lambda: agent.status == "arrived")
+    assert told(events, agent) == [Departed, Arrived] and agent.level == detail
+
+
 def test_a_player_whose_next_waypoint_is_out_of_its_reach_has_it_loaded_all_the_same():
     world = World(strip(radius=6.0), seed=1)
     agent = world.spawn("walker", START)
@@ -246,6 +278,7 @@ def streaming(state, **changes):
         (lambda state: streaming(state, changed=("no",)), "does not have"),
         (lambda state: streaming(state, loaded=()), "nobody can stand"),
         (lambda state: streaming(state, players=("nobody",)), "none of its agents"),
+        (lambda state: streaming(state, players=((0.0, np.inf, 0.0),)), "not finite"),
         (lambda state: dataclasses.replace(state, streaming=None), "does not say what"),
     ],
 )

@@ -239,9 +239,9 @@ def time_ticks(human: Human, path: np.ndarray, speed: float) -> tuple[float, flo
     saved, begin = human.save_state(), save_physics(human.model, human.data)
     steps: list[tuple[mujoco.MjModel, np.ndarray]] = []
     while human.status in MOVING and len(steps) < MOST_TICKS:
-        model = human.physics
-        human.tick()
-        steps.append((model, human.data.ctrl.copy()))
+        crawls = human.fours.active
+        human.tick()  # on hands and feet it may find other ground first, and be moved by another model
+        steps.append((human.fours.model if crawls else human.model, human.data.ctrl.copy()))
     twin = mujoco.MjData(human.model)
     whole = bare = math.inf
     for _ in range(REPEATS):

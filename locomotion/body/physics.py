@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from locomotion.errors import LocomotionError
 
-__all__ = ["PHYSICS", "physics_size", "restore_physics", "save_physics"]
+__all__ = ["PHYSICS", "physics_size", "restore_physics", "save_physics", "write_physics"]
 
 PHYSICS = mujoco.mjtState.mjSTATE_INTEGRATION
 """The parts of MuJoCo's state to save."""
@@ -20,8 +20,13 @@ def physics_size(model: mujoco.MjModel) -> int:
 def save_physics(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
     """The state of ``data``, (k,) float64."""
     state = np.empty(physics_size(model))
-    mujoco.mj_getState(model, data, state, PHYSICS)
+    write_physics(model, data, state)
     return state
+
+
+def write_physics(model: mujoco.MjModel, data: mujoco.MjData, state: NDArray[np.float64]) -> None:
+    """Write the state of ``data`` into ``state`` (k,)."""
+    mujoco.mj_getState(model, data, state, PHYSICS)
 
 
 def restore_physics(model: mujoco.MjModel, data: mujoco.MjData, physics: NDArray[np.float64]) -> None:

@@ -321,12 +321,14 @@ class Human(Person):
             self.follower.shift(shift, self.on_feet.limits, walk)
 
     # --- time
-    def tick(self) -> None:
-        """Advance by 10 ms: track the path, control, step the physics, observe, report events."""
-        lookahead = self._lookahead
+    def tick(self, since_foresees: bool = False) -> None:
+        """Advance by 10 ms: track the path, control, step the physics, observe, report events.
+        ``since_foresees``: nothing can have happened to it since it was asked what it `foresees`."""
+        lookahead, sure = self._lookahead, False
         if lookahead is not None:
             lookahead.catch_up()
-        came_true = self.decider.predicted.comes_true(self)
+            sure = since_foresees and lookahead.is_as_predicted
+        came_true = self.decider.predicted.comes_true(self, sure)
         if not came_true:
             if lookahead is not None:
                 lookahead.be_surprised()

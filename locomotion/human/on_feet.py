@@ -147,7 +147,7 @@ class OnFeet:
     @property
     def walks(self) -> bool:
         """Whether it walks or stands."""
-        return bool(self.walk[WALKS] > 0.0)
+        return self.walk.item(WALKS) > 0.0
 
     @property
     def walks_as_learned(self) -> bool:
@@ -209,8 +209,10 @@ class OnFeet:
 
     def stands_still(self, state: NDArray[np.float64]) -> bool:
         """Whether it stands still, if only in a crouch."""
-        stands = self.walks and self.walk[PHASE] == STANDING and self.walk[CLOCK] == 0.0
-        return bool(stands and np.abs(state[controller.COM_VELOCITY]).max() < _STILL)
+        if not (self.walks and self.walk[PHASE] == STANDING and self.walk[CLOCK] == 0.0):
+            return False
+        x, y, z = state[controller.COM_VELOCITY].tolist()
+        return -_STILL < x < _STILL and -_STILL < y < _STILL and -_STILL < z < _STILL
 
     def _upright(self, state: NDArray[np.float64]) -> bool:
         """Whether it is as high as it stands: behind a stop it crouches."""

@@ -145,10 +145,20 @@ class Person:
 
     def pose(self) -> NDArray[np.float64]:
         """(46,) `qpos` as it is shown: a person who stands as learned breathes and looks about."""
-        pose = self.qpos
+        return self.shown(self.qpos, self.idles_for)
+
+    @property
+    def idles_for(self) -> float:
+        """[s] for which it has stood as learned; 0 if it does not."""
         if self.on_feet.walks_as_learned and self.status not in MOVING:
-            pose[7:] = idle_pose(pose[7:], (self.ticks - self.ended_at) * CONTROL_DT, self.habit)
-        return pose
+            return (self.ticks - self.ended_at) * CONTROL_DT
+        return 0.0
+
+    def shown(self, qpos: NDArray[np.float64], idles_for: float) -> NDArray[np.float64]:
+        """``qpos`` (46,), which it changes, of one that has stood for so many seconds, as it is shown."""
+        if idles_for > 0.0:
+            qpos[7:] = idle_pose(qpos[7:], idles_for, self.habit)
+        return qpos
 
     @property
     def velocity(self) -> NDArray[np.float64]:
@@ -190,7 +200,8 @@ class Person:
     @property
     def physics(self) -> mujoco.MjModel:
         """The model for its next tick: on hands and feet or after a fall, contacts with the ground are
-        stiffer than in `model`."""
+        stiffer than in `model`. On hands and feet it looks at the ground five times a second, and may then
+        change to another model in that very tick."""
         return self.fours.model if self.fours.active else self.model
 
     @property

@@ -30,7 +30,7 @@ class Correction:
     @property
     def acts(self) -> bool:
         """Whether it moves the targets, if only while it fades."""
-        return bool(self.memory[SINCE] > 0.0)
+        return self.memory.item(SINCE) > 0.0
 
     def forget(self) -> None:
         """Something else moves the person now."""

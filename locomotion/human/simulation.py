@@ -14,7 +14,7 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.run import controller
 from locomotion.ground.ground import Ground, plane_lookup
 
-__all__ = ["Simulation", "positions"]
+__all__ = ["Simulation", "movements"]
 
 
 class Simulation:
@@ -99,16 +99,18 @@ class Simulation:
         return np.array([place[0], place[1], z])
 
 
-def positions(bodies: Sequence[Simulation]) -> NDArray[np.float64]:
-    """(n, 3) float64 [m]: `Simulation.position` of several, who are on the same ground."""
-    places = np.empty((len(bodies), 3))
-    for place, each in zip(places, bodies, strict=True):
-        place[:] = each.control[controller.COM]
-    if not bodies or bodies[0].ground is None:
+def movements(bodies: Sequence[Simulation]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(n, 3) float64 [m]: `Simulation.position` of several, who are on the same ground; and (n, 3) [m/s]: the
+    velocities of their centres of mass, as if nobody were held."""
+    if not bodies:
+        return np.empty((0, 3)), np.empty((0, 3))
+    controls = np.concatenate([each.control for each in bodies]).reshape(len(bodies), -1)
+    places, velocities = controls[:, controller.COM].copy(), controls[:, controller.COM_VELOCITY]
+    if bodies[0].ground is None:
         places[:, 2] = 0.0
-        return places
+        return places, velocities
     places[:, 2] = bodies[0].ground.surface_below(places)[0]
     for k in np.flatnonzero(np.isnan(places[:, 2])).tolist():
         feet = bodies[k].control[controller.FEET]
         places[k, 2] = min(feet[2], feet[5])
-    return places
+    return places, velocities

@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.body.physics import restore_physics, save_physics
+from locomotion.body.physics import physics_size, restore_physics, write_physics
 from locomotion.body_events import Event
 from locomotion.human.simulation import Simulation
 from locomotion.paths.smoothing import ObstacleAhead
@@ -131,9 +131,12 @@ class _Person(Protocol):
 
 def save(person: _Person) -> HumanState:
     """Everything that ``person`` needs to continue from here."""
-    body = person.simulation
-    numbers = np.concatenate((*_ARRAYS(person), save_physics(body.model, body.data)))
-    values = (value.copy() if isinstance(value, np.ndarray) else value for value in _VALUES(person))
+    body, arrays = person.simulation, _ARRAYS(person)
+    end = sum(map(len, arrays))
+    numbers = np.empty(end + physics_size(body.model))
+    np.concatenate(arrays, out=numbers[:end])
+    write_physics(body.model, body.data, numbers[end:])
+    values = [value.copy() if isinstance(value, np.ndarray) else value for value in _VALUES(person)]
     return HumanState._make((numbers, *values, tuple(person.events), (0, 0)))
 
 
@@ -154,8 +157,9 @@ def restore(person: _Person, state: HumanState) -> None:
 
 def same(one: HumanState, other: HumanState) -> bool:
     """Whether two states continue in the same way; past events and foresight do not matter."""
-    if not all(field.same(getattr(one, field.name), getattr(other, field.name)) for field in _FIELDS):
-        return False
+    for field, its, others in zip(_FIELDS, one[1:], other[1:], strict=False):  # events and foresight are last
+        if not field.same(its, others):
+            return False
     return one.numbers.tobytes() == other.numbers.tobytes()
 
 

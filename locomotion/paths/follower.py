@@ -48,7 +48,7 @@ class PathFollower:
     @property
     def arc(self) -> float:
         """[m] travelled along the present path."""
-        return float(self.memory[path_tracking.ARC])
+        return self.memory.item(path_tracking.ARC)
 
     @property
     def arc_length(self) -> float:
@@ -60,7 +60,7 @@ class PathFollower:
     @property
     def remaining(self) -> float:
         """[m] left of the present path."""
-        return float(self.memory[path_tracking.REMAINING])
+        return self.memory.item(path_tracking.REMAINING)
 
     @property
     def ended(self) -> bool:
@@ -70,12 +70,12 @@ class PathFollower:
     @property
     def lateral(self) -> float:
         """[m] of the centre of mass to the left of the path."""
-        return float(self.memory[path_tracking.LATERAL])
+        return self.memory.item(path_tracking.LATERAL)
 
     @property
     def pace(self) -> float:
         """Share of the planned speed at which it moves."""
-        return float(self.memory[path_tracking.PACE])
+        return self.memory.item(path_tracking.PACE)
 
     @pace.setter
     def pace(self, pace: float) -> None:
@@ -106,7 +106,7 @@ class PathFollower:
     def tried_to_slow(self) -> int:
         """Tick at which it found no way to slow down to a walk, or began to without having rehearsed it; 0:
         it has not tried, or knows that it holds."""
-        return int(self.memory[path_tracking.TRIED])
+        return int(self.memory.item(path_tracking.TRIED))
 
     @tried_to_slow.setter
     def tried_to_slow(self, tick: int) -> None:
@@ -115,7 +115,7 @@ class PathFollower:
     @property
     def stops_since(self) -> int:
         """Tick since which one that runs wants to stop without having rehearsed it; 0: it does not."""
-        return int(self.memory[path_tracking.STOPS_SINCE])
+        return int(self.memory.item(path_tracking.STOPS_SINCE))
 
     @stops_since.setter
     def stops_since(self, tick: int) -> None:
@@ -124,7 +124,7 @@ class PathFollower:
     @property
     def starts(self) -> int:
         """Tick before which it does not start."""
-        return int(self.memory[path_tracking.STARTS])
+        return int(self.memory.item(path_tracking.STARTS))
 
     @starts.setter
     def starts(self, tick: int) -> None:
@@ -152,7 +152,7 @@ class PathFollower:
 
     def without_headway(self, tick: float) -> float:
         """[s] without progress."""
-        return float(tick - self.memory[path_tracking.HEADWAY_TICK]) * CONTROL_DT
+        return (tick - self.memory.item(path_tracking.HEADWAY_TICK)) * CONTROL_DT
 
     def wait(self) -> None:
         """Count a tick of giving way, which does not count as without progress."""

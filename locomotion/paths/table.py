@@ -106,4 +106,4 @@ class PathTable:
 
     def _gait(self, arc: float) -> float:
         last = len(self.table) - 1
-        return self.table[min(max(round(arc / self.length * last), 0), last), GAIT]
+        return self.table.item(min(max(round(arc / self.length * last), 0), last), GAIT)

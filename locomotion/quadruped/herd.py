@@ -66,6 +66,7 @@ class Herd:
         self.joints = np.zeros((0, at.JOINTS))
         self.poses = np.zeros((0, 7))
         self.pose_start = np.zeros(1, np.int64)
+        self._disc_radii = np.zeros(0)
         self._kinds: list[Body] = []
         self._params = np.zeros((0, at.PARAMS))
         self._gaits = np.zeros((0, 1, at.GAIT))
@@ -96,6 +97,7 @@ class Herd:
         """Remove an animal; the indices of those after it decrease by one."""
         first, last = self.pose_start[index : index + 2]
         del self.bodies[index]
+        self._disc_radii = np.delete(self._disc_radii, index)
         self.state, self.feet, self.crumbs, self.joints = (
             np.delete(each, index, axis=0) for each in (self.state, self.feet, self.crumbs, self.joints)
         )
@@ -108,6 +110,7 @@ class Herd:
         """Make room for one more animal; returns its index."""
         index = len(self.bodies)
         self.bodies.append(body)
+        self._disc_radii = np.append(self._disc_radii, disc_radius(body))
         kind = self._kind(body)
         count = count_bodies(body.spine.bones)
         self.state = np.vstack([self.state, np.zeros(at.STATE)])
@@ -349,7 +352,7 @@ class Herd:
         rows[:, :, :2] = between_feet(self.state[:, [at.X, at.Y]], self.state[:, [at.FRONT_X, at.FRONT_Y]])
         rows[:, :, 2] = self.state[:, [at.HEIGHT]]
         rows[:, :, 3:5] = self.state[:, None, at.RATE : at.RATE + 2]
-        rows[:, :, 5] = np.array([disc_radius(body) for body in self.bodies]).reshape(-1, 1)
+        rows[:, :, 5] = self._disc_radii[:, None]
         return rows.reshape(-1, 6)
 
     def foretold(self, index: int) -> NDArray[np.float64]:

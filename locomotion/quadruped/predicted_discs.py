@@ -19,6 +19,7 @@ __all__ = ["DISCS", "between_feet", "disc_radius", "foretell_motion", "foretell_
 
 DISCS = 3
 """Number of discs that cover an animal on the ground: at the rear feet, the middle and the front feet."""
+_SHARES = np.linspace(0.0, 1.0, DISCS)[:, None]
 
 
 def disc_radius(body: Body) -> float:
@@ -28,8 +29,7 @@ def disc_radius(body: Body) -> float:
 
 def between_feet(rear: NDArray[np.float64], front: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n, DISCS, 2) [m] the discs' centres, from the feet's midpoints (n, 2)."""
-    share = np.linspace(0.0, 1.0, DISCS)
-    return rear[:, None] + share[:, None] * (front - rear)[:, None]
+    return rear[:, None] + _SHARES * (front - rear)[:, None]
 
 
 @allocating_kernel

@@ -46,6 +46,7 @@ class OnAllFours:
 
     def __init__(self, model: mujoco.MjModel, index: PersonIndex) -> None:
         self._model = model
+        self._models: tuple[mujoco.MjModel, mujoco.MjModel] | None = None  # harder and gentler
         self._parts = parts_of(index, model)
         self.memory = new_scramble()
         self.fell_at, self.on_way, self.gentle = 0.0, 0.0, 0.0
@@ -54,12 +55,14 @@ class OnAllFours:
     @property
     def model(self) -> mujoco.MjModel:
         """The physics of a body that hands and feet move, or that falls."""
-        return gentler(self._model) if self.gentle > 0.0 else harder(self._model)
+        if self._models is None:
+            self._models = harder(self._model), gentler(self._model)
+        return self._models[self.gentle > 0.0]
 
     @property
     def active(self) -> bool:
         """Whether it moves on hands and feet now."""
-        return bool(self.memory[MODE] != AWAY)
+        return self.memory.item(MODE) != AWAY
 
     @property
     def borne(self) -> bool:

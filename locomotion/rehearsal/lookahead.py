@@ -53,6 +53,7 @@ class Lookahead:
         self._until = self._last = self._begins = self._total = 0
         # the double's tick; the person's last tick; the tick from which to look ahead, 0 while it does; ticks
         # spent in all
+        self._checked = -1  # the person's tick before which it was as predicted
         self._saved: HumanState | None = None  # restored, and its ticks ahead are not yet made again
 
     def get_ready(self) -> None:
@@ -107,9 +108,18 @@ class Lookahead:
     def foresees(self) -> int | None:
         """Before a tick of the person: `ahead`, after what has happened to it since the last one."""
         self.catch_up()
-        if self._spent and not self._person.decider.predicted.holds(self._person.save_state()):
-            self._forget(self._after_disturbance)
+        if self._spent:
+            person = self._person
+            if person.decider.predicted.holds(person.save_state()):
+                self._checked = person.ticks
+            else:
+                self._forget(self._after_disturbance)
         return self.ahead
+
+    @property
+    def is_as_predicted(self) -> bool:
+        """Whether the person was as predicted when `foresees` was asked, before its next tick."""
+        return self._checked == self._person.ticks
 
     def be_surprised(self) -> None:
         """Before a tick of the person that was not predicted."""
@@ -220,7 +230,7 @@ class Lookahead:
         """Start over at tick ``begins`` or later."""
         if self._task is not None:
             self._task.close()
-        self._task = self._rehearsal = None
+        self._task, self._rehearsal, self._checked = None, None, -1
         self._answers.clear()
         self._spent.clear()
         self._saved = None

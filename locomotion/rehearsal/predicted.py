@@ -66,12 +66,17 @@ class Predicted:
         """Nothing is known."""
         self._states.clear()
 
-    def comes_true(self, person: _Person) -> bool:
-        """If the next tick is known, advance ``person`` to it; return whether it was."""
+    def comes_true(self, person: _Person, is_as_predicted: bool = False) -> bool:
+        """If the next tick is known, advance ``person`` to it; return whether it was. ``is_as_predicted``:
+        that `holds` just now need not be looked at again."""
         now, soon = self._states.pop(person.ticks, None), self._states.get(person.ticks + 1)
         if soon is None:
             return False
-        if now is None or person.model is not self._model or not same(now, person.save_state()):
+        if (
+            now is None
+            or person.model is not self._model
+            or not (is_as_predicted or same(now, person.save_state()))
+        ):
             self.forget()
             return False
         events = [*person.events, *soon.events]

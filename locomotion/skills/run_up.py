@@ -77,6 +77,8 @@ class RunUp:
     @property
     def ahead(self) -> ObstacleAhead | None:
         """The next obstacle, or the one that is being cleared."""
+        if not self.obstacles:
+            return None
         number = int(self.plan[NEXT])
         return self.obstacles[number] if number < len(self.obstacles) else None
 
@@ -96,7 +98,7 @@ class RunUp:
     @property
     def planned(self) -> float:
         """Speed [m/s] planned for this step; 0 where there is no run-up."""
-        return float(self.plan[PLANNED])
+        return self.plan.item(PLANNED)
 
     @property
     def skill(self) -> ClearingSkill:
@@ -161,7 +163,7 @@ class RunUp:
     @property
     def balked(self) -> bool:
         """Whether it has broken the run-up off, and has not begun another."""
-        return bool(self.plan[BALKED] > 0.0)
+        return self.plan.item(BALKED) > 0.0
 
     def set_off(self, choice: Sequence[float], goes_well: bool) -> None:
         """It begins to run towards the obstacle ahead; arguments as of `vary`."""
@@ -200,7 +202,7 @@ class RunUp:
     @property
     def rehearsed(self) -> bool:
         """Whether a choice has gone well in rehearsal."""
-        return bool(self.plan[REHEARSED] > 0.0)
+        return self.plan.item(REHEARSED) > 0.0
 
     def disturb(self) -> None:
         """Something may make it come otherwise than in rehearsal."""

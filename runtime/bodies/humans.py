@@ -25,7 +25,7 @@ from locomotion.gaits.walk.skill import WalkSkill, load_walk_skill
 from locomotion.human.human import BetweenGaits
 from locomotion.human.motion_start import moment_like, set_in_motion
 from locomotion.human.saved_state_check import check_person
-from locomotion.human.simulation import positions
+from locomotion.human.simulation import movements
 from locomotion.postures.step_order import AT_REST
 from locomotion.preconditions.precondition import load_preconditions
 from locomotion.recorded.individual import by_hand
@@ -213,9 +213,9 @@ class People(Population):
     def in_the_way(self) -> np.ndarray:
         humans = [driver.human for driver in self._drivers]
         rows = np.empty((len(humans), 6))
-        rows[:, :3] = positions([each.simulation for each in humans])
-        for row, human in zip(rows, humans, strict=True):
-            row[3:5] = human.velocity[:2]
+        rows[:, :3], velocities = movements([each.simulation for each in humans])
+        rows[:, 3:5] = velocities[:, :2]
+        rows[[each.held for each in humans], 3:5] = 0.0
         rows[:, 5] = PERSON_RULES["radius"]
         return rows
 
@@ -224,7 +224,7 @@ class People(Population):
 
     def remember(self) -> None:
         for driver in self._drivers:
-            driver.before = driver.human.pose()
+            driver.before = driver.human.qpos, driver.human.idles_for
 
     def change_level(self) -> None:
         self._spare, self._unused = [], None
@@ -243,7 +243,7 @@ class People(Population):
         allotted = None if self._rehearsal_ticks is None else allot(humans, self._rehearsal_ticks)
 
         def go_on(number: int) -> None:
-            humans[number].tick()
+            humans[number].tick(since_foresees=allotted is not None)
             if allotted is not None and allotted[number]:
                 humans[number].look_ahead(allotted[number])
             pause()
@@ -252,7 +252,8 @@ class People(Population):
 
 
 class HumanDriver(Driver):
-    """A person. ``before``: (46,) its joints as they were when `People.remember` was called, or None.
+    """A person. ``before``: its joints (46,) as they were when `People.remember` was called, and for how long
+    [s] it had stood then; or None.
     ``hesitates``: [s] after which it sets out from a stand: people told the same do not step as one.
     ``style``: traits to be worn when it plays recorded motion."""
 
@@ -264,7 +265,7 @@ class HumanDriver(Driver):
         self.figure = Figure.from_model(human.model)
         self.events = human.events
         self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
-        self.before: np.ndarray | None = None
+        self.before: tuple[np.ndarray, float] | None = None
         self.hesitates = 0.0
         self.style: dict[str, float] = {}
         self._fading: Fading | None = None
@@ -453,8 +454,9 @@ class HumanDriver(Driver):
         if self.before is None:
             return self.transforms()
         model, now = self.human.model, self.human.pose()
-        pose, change = self.before.copy(), np.empty(model.nv)
-        mujoco.mj_differentiatePos(model, change, 1.0, self.before, now)
+        qpos, idled_for = self.before
+        pose, change = self.human.shown(qpos.copy(), idled_for), np.empty(model.nv)
+        mujoco.mj_differentiatePos(model, change, 1.0, pose, now)
         mujoco.mj_integratePos(model, pose, change, share)
         return self._transforms_of(self._faded(pose, (share - 1.0) * CONTROL_DT))
 

@@ -1,6 +1,6 @@
 """Persons in a world who play recorded motion: they move as walkers do, and have postures."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -23,6 +23,7 @@ from navmesh.routes.route import Route
 from runtime.bodies.figure import Figure, Joints
 from runtime.bodies.humans import HumanDriver, chance_at
 from runtime.bodies.joints import person_joints
+from runtime.bodies.populations import Populations
 from runtime.bodies.protocol import Driver, Population, recall, saved_parts
 from runtime.bodies.walkers import WalkerDriver
 from runtime.errors import RuntimeInputError
@@ -46,7 +47,7 @@ class Recorded(Population):
     """All of them, in one crowd that avoids all others of ``populations``. ``seed``: the world's, from which
     they get what is each one's own."""
 
-    def __init__(self, level: Level, populations: Sequence[Population], seed: int) -> None:
+    def __init__(self, level: Level, populations: Populations, seed: int) -> None:
         self.level, self._populations, self._seed = level, populations, seed
         self._people: RecordedPeople | None = None
 
@@ -103,8 +104,7 @@ class Recorded(Population):
 
     def tick(self) -> None:
         if self._people:
-            others = [each.in_the_way() for each in self._populations if each is not self]
-            self._people.crowd.lead(np.concatenate([np.empty((0, 6)), *others]))
+            self._people.crowd.lead(self._populations.discs_around(self))
             self._people.tick()
 
 

@@ -14,6 +14,7 @@ from navmesh.routes.route import Route
 from navmesh.routes.route_validity import line_holds
 from navmesh.routes.surface_projection import project_to_surface
 from runtime.bodies.figure import Figure, Shapes
+from runtime.bodies.populations import Populations
 from runtime.bodies.pose import between
 from runtime.bodies.protocol import PLANS_KEPT, Driver, Population, recall, saved_parts
 from runtime.errors import RuntimeInputError
@@ -50,7 +51,7 @@ class Walkers(Population):
     """All walkers of a world, in one crowd. They avoid all others of its ``populations``, which are advanced
     before them."""
 
-    def __init__(self, level: Level, populations: Sequence[Population]) -> None:
+    def __init__(self, level: Level, populations: Populations) -> None:
         self._level, self.crowd, self._populations = level, Crowd(level.graph), populations
         self.before = np.zeros((0, 7))
 
@@ -102,8 +103,7 @@ class Walkers(Population):
 
     def tick(self) -> None:
         if len(self.crowd):
-            others = [each.in_the_way() for each in self._populations if each is not self]
-            self.crowd.lead(np.concatenate([np.empty((0, 6)), *others]))
+            self.crowd.lead(self._populations.discs_around(self))
             self.crowd.tick()
 
 

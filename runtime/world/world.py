@@ -21,6 +21,7 @@ from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.library import described_ranges, different, learned_digest, learned_skills
 from runtime.bodies.cast import Cast
 from runtime.bodies.kinds.kind import WALKS, BodyKind, Surroundings
+from runtime.bodies.populations import Populations
 from runtime.bodies.protocol import Driver, Population
 from runtime.bodies.registry import body_kinds, kind_of
 from runtime.errors import RuntimeInputError
@@ -144,7 +145,7 @@ class World:
         self.agents: dict[str, Agent] = {}
         self.random = np.random.default_rng(seed)
         self._level = Level.of(graph)
-        self._populations: list[Population] = []
+        self._populations = Populations()
         self._traffic = Traffic(self._level, self._populations)
         around = Surroundings(
             self._level,
@@ -560,9 +561,7 @@ class World:
                     self._traffic.direct(clock.ticks)
                 clock.ticks += 1
                 clock.owed = max(total - made * CONTROL_DT, 0.0)
-                for population in self._populations:
-                    population.tick()
-                    pause()
+                self._populations.tick()
                 if clock.ticks % LOOKS == 0:
                     self._choose_levels()
                 if self._roster is None:

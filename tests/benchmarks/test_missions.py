@@ -1,10 +1,11 @@
-"""What the benchmark of missions calls "in walls"."""
+"""What the benchmark of missions calls "in walls", and what it compares ticks with."""
 
 import numpy as np
 import pytest
 
-from benchmarks.missions import depth_through
+from benchmarks.missions import depth_through, time_ticks
 from benchmarks.obstacle_scenes import box, merged, plate
+from locomotion import Ground, Human
 from navmesh.level.mesh_queries import MeshGrid
 
 ORIGIN = np.array([-5.0, -5.0, -1.0])
@@ -33,3 +34,20 @@ def test_depth_through(triangles: np.ndarray, a: tuple, b: tuple, depth: float) 
     a, b = np.array(a) - ORIGIN, np.array(b) - ORIGIN
     assert depth_through(triangles, a, b) == pytest.approx(depth, abs=1e-9)
     assert depth_through(triangles, b, a) == pytest.approx(depth, abs=1e-9)
+
+
+def test_bare_physics_is_that_of_one_on_hands_and_feet_who_finds_gentler_ground(monkeypatch):
+    monkeypatch.setattr("benchmarks.missions.REPEATS", 1)
+    monkeypatch.setattr("benchmarks.missions.MOST_TICKS", 880)
+    slope = 0.6
+    steep = np.array([[-8.0, -4.0, 8.0 * slope], [0.0, -4.0, 0.0], [0.0, 4.0, 0.0], [-8.0, 4.0, 8.0 * slope]])
+    level = np.array([[0.0, -4.0, 0.0], [9.0, -4.0, 0.0], [9.0, 4.0, 0.0], [0.0, 4.0, 0.0]])
+    square = np.array([[0, 1, 2], [0, 2, 3]])
+    ground = Ground.from_arrays(
+        np.concatenate([steep, level]), np.concatenate([square, square + 4]), max_slope=0.75
+    )
+    human = Human(ground, rehearsals=0, gets_up=True)
+    down = np.array([[-1.25, 0.0, 1.25 * slope], [0.0, 0.0, 0.0], [6.0, 0.0, 0.0]])
+    whole, bare, ticks = time_ticks(human, down, 1.0)  # ends the program where they differ
+    assert ticks == 880 and min(whole, bare) > 0.0
+    assert human.fours.active and human.fours.gentle > 0.0

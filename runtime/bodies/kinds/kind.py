@@ -1,7 +1,7 @@
 """What a kind of body has to say of itself. Methods that are not abstract do what most kinds need."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,6 +9,7 @@ import numpy as np
 
 import navmesh
 from runtime.bodies.figure import Figure
+from runtime.bodies.populations import Populations
 from runtime.bodies.protocol import Driver, Population
 from runtime.dis.enumerations import CATEGORY_CIVILIAN, EntityType, life_form_type
 from runtime.planning.level import Level
@@ -32,7 +33,7 @@ class Surroundings:
 
     level: Level
     traffic: Traffic
-    populations: Sequence[Population]
+    populations: Populations
     skills: tuple[Path, ...]
     rehearsals: int
     rehearsal_ticks: int | None

@@ -9,7 +9,7 @@ import pytest
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run.layout import COM, FEET
 from locomotion.ground.ground import Ground
-from locomotion.human.simulation import Simulation, positions
+from locomotion.human.simulation import Simulation, movements
 
 CORNERS = np.array([[-5.0, -5, -1.0], [5, -5, 1.0], [5, 5, 1.0], [-5, 5, -1.0]])
 FACES = [[0, 1, 2], [0, 2, 3]]
@@ -81,8 +81,8 @@ def test_several_are_where_each_of_them_is(on_slope):
     beside = Simulation(on_slope.ground)
     beside.control[COM], beside.control[FEET] = (7.0, 1.0, 1.3), (2.0, 0.9, 0.45, 7.0, 1.1, 0.41)
     both = [on_slope, beside]
-    assert np.array_equal(positions(both), [each.position for each in both])
+    assert np.array_equal(movements(both)[0], [each.position for each in both])
     plane = Simulation(None)
     plane.control[COM] = 3.0, 4.0, 1.0
-    assert np.array_equal(positions([plane]), [plane.position])
-    assert positions([]).shape == (0, 3)
+    assert np.array_equal(movements([plane])[0], [plane.position])
+    assert movements([])[0].shape == (0, 3)

@@ -23,7 +23,7 @@ _DOOR = np.dtype([("portal", "f8", 6), ("portal_cell", "i4", 2), ("target", "i4"
 _LABEL = np.dtype(
     [
         ("cost", "f8"), ("total", "f8"), ("apex", "f8", 3), ("left", "f8", 3), ("right", "f8", 3),
-        ("node", "i4"), ("parent", "i4"), ("via", "i4"), ("", "f8", 3), ("", "i4"),
+        ("node", "i4"), ("parent", "i4"), ("via", "i4"), ("aside", "i4"), ("", "f8", 3),
     ]
 )  # fmt: skip
 _SEEN = np.dtype([("stamp", "i8"), ("label", "i4", LABELS), ("label_total", "f8", LABELS)])
@@ -149,13 +149,13 @@ SCRATCH = BundleType(
 numbers: the stamp of the current search and its counters, see `navmesh.routes.graph_search`; ends: start and
 goal. For each node: stamp, the last search that came to it; label (LABELS): the numbers of its labels, or -1,
 and label_total, their totals, or inf. For each label: node, cost, total, apex, left, right (3), parent, via:
-the door, or the number of doors + leap. heap_key, heap_item: the open list; reached: for each part the last
-search that can get to it, part_stack: those still to be gone on from; nodes, edges: the chain found; points,
-cells: the corners pulled; corner, corner_at: those of the funnel; arc: those that round one of them; bend:
-those that lead a line round a place; trial, trial_cell: corners to be put in the place of one; kept,
-kept_nodes, kept_leaps: the best line so far; saved, saved_cell: corners to go back to; stack, stack_cell:
-corners still to be reached; cell_stamp, cell_best, cell_parent: what `navmesh.routes.cell_search` knows of
-each cell.
+the door, or the number of doors + leap; aside: whether it has been set aside. heap_key, heap_item: the open
+list; reached: for each part the last search that can get to it, part_stack: those still to be gone on from;
+nodes, edges: the chain found; points, cells: the corners pulled; corner, corner_at: those of the funnel; arc:
+those that round one of them; bend: those that lead a line round a place; trial, trial_cell: corners to be put
+in the place of one; kept, kept_nodes, kept_leaps: the best line so far; saved, saved_cell: corners to go back
+to; stack, stack_cell: corners still to be reached; cell_stamp, cell_best, cell_parent: what
+`navmesh.routes.cell_search` knows of each cell.
 """
 
 

@@ -12,7 +12,7 @@ from navmesh.surface.clearance_field import fetch_cell
 from surefoot.kernels import kernel
 from surefoot.kernels.fetching import fetch
 
-__all__ = ["fetch_line"]
+__all__ = ["fetch_corners", "fetch_line"]
 
 
 @kernel(error_model="numpy", inline="always")
@@ -44,3 +44,32 @@ def fetch_line(net, nodes, low, high, ax, ay, bx, by, radius):
         column = _where_it_leaves(net, np.int64(nodes[i]), ax, ay, ux, uy, length, room)
         if column >= 0:
             fetch_cell(net, np.int64(net.column_start[column]))
+
+
+@kernel(error_model="numpy", inline="always")
+def _cell_of(doors, edges, at):
+    """The cell at the end of a portal, told as `navmesh.routes.funnel.funnel` does."""
+    return np.int64(doors.portal_cell[edges[at >> 1], at & 1])
+
+
+@kernel(error_model="numpy")
+def fetch_corners(net, doors, edges, at, count):
+    """Ask for the memory that it takes to find the room around the corners of a funnel, but its ends: ``at``
+    (count,) are the ends of portals where they are."""
+    for i in range(1, count - 1):
+        k = _cell_of(doors, edges, at[i])
+        fetch_cell(net, k)
+        fetch(net.cell_column, k)
+    for i in range(1, count - 1):
+        k = _cell_of(doors, edges, at[i])
+        column = np.int64(net.cell_column[k])
+        fetch(net.column_start, column - net.ny)
+        fetch(net.column_start, column)
+        fetch(net.column_start, column + net.ny)
+        fetch(net.blocker_start, np.int64(net.source[k]))
+    for i in range(1, count - 1):
+        source = np.int64(net.source[_cell_of(doors, edges, at[i])])
+        if source >= 0:
+            first = np.int64(net.blocker_start[source])
+            fetch(net.blocker, first)
+            fetch(net.blocker, first + 2)

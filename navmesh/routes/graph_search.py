@@ -5,8 +5,9 @@ shortest line through the portals so far last turns, what that line costs up to 
 two corners between which the portal is seen from the apex. So the cost of a label is that of the pulled line
 and not of one through the middles of discs, and what is left is estimated by the shortest line out of the
 funnel to the goal. A node keeps the `LABELS` cheapest of those that lead into it: the cheapest can turn out
-to run into something that the portals do not know of. Labels are numbered as they come up: what a search
-knows lies together, however far apart the numbers of its nodes are.
+to run into something that the portals do not know of. Only the cheapest is gone on from; the other is set
+aside until another way to the goal is wanted. Labels are numbered as they come up: what a search knows lies
+together, however far apart the numbers of its nodes are.
 
 Where nodes have costs, the line goes straight from where it crosses one portal to where it best crosses the
 next on the way to the goal, and each part is weighted by the node's factor. No factor is below 1, so the
@@ -22,6 +23,7 @@ from surefoot.kernels import kernel
 from surefoot.kernels.fetching import fetch
 
 __all__ = [
+    "ALL",
     "BEST",
     "COMPLETE",
     "EMPTY",
@@ -46,9 +48,12 @@ LABELS = 2
 # Places in scratch.numbers
 _STAMP, _HEAP, _STATE, GOAL_NODE, BEST, EXPANDED = 0, 1, 2, 3, 4, 5
 _USED = 10  # labels
+ALL = 12
+"""Place in scratch.numbers: whether no label is set aside."""
 LIMIT = 7
 """Place in scratch.ends: ways that cost so much [m] are not looked for."""
 _NEAREST = 6  # in scratch.ends: how near [m] to the goal a portal seen is
+_ASIDE = 8  # in scratch.ends: the least total of a label that was set aside
 _SAME = 1e-9  # [m]
 _AHEAD = 4  # doors of a node that are fetched when it gets a label
 
@@ -105,12 +110,13 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     numbers[EXPANDED] = 0
     numbers[_USED] = 1
     numbers[BEST] = 0
+    numbers[ALL] = 0
     ends = scratch.ends
     ends[0], ends[1], ends[2] = sx, sy, sz
     ends[3], ends[4], ends[5] = gx, gy, gz
     rest = _distance(sx, sy, sz, gx, gy, gz)
     ends[_NEAREST] = rest
-    ends[LIMIT] = 1e300
+    ends[LIMIT] = ends[_ASIDE] = 1e300
     _place_for(scratch.stamp, scratch.label, scratch.label_total, numbers[_STAMP], start_node, rest, 0)
     scratch.node[0] = start_node
     scratch.cost[0] = 0.0
@@ -118,6 +124,7 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     for corner in (scratch.apex, scratch.left, scratch.right):
         corner[0, 0], corner[0, 1], corner[0, 2] = sx, sy, sz
     scratch.parent[0] = -1
+    scratch.aside[0] = 0
     scratch.via[0] = -1
     scratch.heap_key[0] = rest
     scratch.heap_item[0] = 0
@@ -170,6 +177,7 @@ def advance(net, doors, scratch, budget):
     slots = following.size
     first_slot = doors_count - slots
     nearest, limit = scratch.ends[_NEAREST], scratch.ends[LIMIT]
+    aside, least_aside, every = scratch.aside, scratch.ends[_ASIDE], numbers[ALL] != 0
     state = RUNNING
     while budget > 0:
         if size == 0 or keys[0] >= limit:
@@ -181,6 +189,10 @@ def advance(net, doors, scratch, budget):
         if key > totals[label]:
             continue  # another label has taken its place
         node = np.int64(nodes[label])
+        if not every and key > min(label_total[node, 0], label_total[node, 1]):
+            aside[label] = 1
+            least_aside = min(least_aside, key)
+            continue
         if node == goal_node:
             numbers[BEST] = label
             state = COMPLETE
@@ -252,6 +264,10 @@ def advance(net, doors, scratch, budget):
             apex[slot, 0], apex[slot, 1], apex[slot, 2] = nax, nay, naz
             left[slot, 0], left[slot, 1], left[slot, 2] = plx, ply, plz
             right[slot, 0], right[slot, 1], right[slot, 2] = prx, pry, prz
+            aside[slot] = not every and total > min(label_total[target, 0], label_total[target, 1])
+            if aside[slot]:
+                least_aside = min(least_aside, total)
+                continue
             for i in range(_AHEAD):
                 fetch(portal, np.int64(door_start[target]) + i)
             push(keys, items, size, total, slot)
@@ -279,18 +295,32 @@ def advance(net, doors, scratch, budget):
             parent[slot], via[slot] = label, doors_count + leap
             for corner in (apex, left, right):
                 corner[slot, 0], corner[slot, 1], corner[slot, 2] = tx, ty, tz
+            aside[slot] = not every and total > min(label_total[target, 0], label_total[target, 1])
+            if aside[slot]:
+                least_aside = min(least_aside, total)
+                continue
             push(keys, items, size, total, slot)
             size += 1
     numbers[_HEAP], numbers[_USED] = size, used
     numbers[_STATE] = state
-    scratch.ends[_NEAREST] = nearest
+    scratch.ends[_NEAREST], scratch.ends[_ASIDE] = nearest, least_aside
     return state
 
 
 @kernel(error_model="numpy")
 def resume(net, doors, scratch, budget):
-    """Look on for another way to the goal after COMPLETE; returns COMPLETE where there is one."""
-    scratch.numbers[_STATE] = RUNNING
+    """Look on for another way to the goal after COMPLETE, also through labels that were set aside; returns
+    COMPLETE where there is one."""
+    numbers, limit = scratch.numbers, scratch.ends[LIMIT]
+    if scratch.ends[_ASIDE] < limit:
+        for label in range(numbers[_USED]):
+            if scratch.aside[label] and scratch.total[label] < limit:
+                scratch.aside[label] = 0
+                push(scratch.heap_key, scratch.heap_item, numbers[_HEAP], scratch.total[label], label)
+                numbers[_HEAP] += 1
+    scratch.ends[_ASIDE] = 1e300
+    numbers[ALL] = 1
+    numbers[_STATE] = RUNNING
     return advance(net, doors, scratch, budget)
 
 

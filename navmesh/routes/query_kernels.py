@@ -29,7 +29,8 @@ _WHOLE = 1 << 60
 START_CELL, GOAL_CELL, _STATUS = 8, 9, 11  # places in scratch.numbers
 NEARER = 0.01  # [m] that a place must be nearer to the goal than the start to be gone to
 _CLOSE = 0.985  # share of the length found that another chain must promise to be tried
-_MORE = 64  # labels that may be expanded then, on top of as many as the search took
+_AGAIN = 0.5  # share of the labels expanded that may be expanded again then, and
+_MORE = 32  # some more
 
 
 @kernel(error_model="numpy", nogil=True)
@@ -173,8 +174,8 @@ def _finish(net, doors, scratch, leaps):
 
     The line of the cheapest chain can be longer than the search thought, and than rounding the corners makes
     it. While chains are left that may lead to a shorter one, they are pulled taut too, as many as the goal
-    has labels and with no more than as much searching again; the shortest counts. Returns (status, nodes,
-    corners, leaps used).
+    has labels and with no more than half as much searching again; the shortest counts. Returns (status,
+    nodes, corners, leaps used).
     """
     numbers, ends = scratch.numbers, scratch.ends
     state = advance(net, doors, scratch, 0)
@@ -188,7 +189,7 @@ def _finish(net, doors, scratch, leaps):
         nodes, corners, used = _trace(net, doors, scratch, leaps, count, x, y, cell, True)[1:4]
         return _PARTIAL, nodes, corners, used
     x, y, cell = ends[3], ends[4], numbers[GOAL_CELL]
-    most = 2 * numbers[EXPANDED] + _MORE
+    most = numbers[EXPANDED] + int(_AGAIN * numbers[EXPANDED]) + _MORE
     cheapest = numbers[BEST]
     least = 1e300
     kept_nodes = kept = kept_used = 0

@@ -19,7 +19,7 @@ import numpy as np
 
 from navmesh.graph.portals import MARGIN
 from navmesh.routes.cell_search import over_cells
-from navmesh.routes.foresight import fetch_line
+from navmesh.routes.foresight import fetch_corners, fetch_line
 from navmesh.routes.funnel import funnel, round_corner
 from navmesh.routes.leading_round import SLACK, lead_round, round_in_disc
 from navmesh.routes.tightening import tighten
@@ -205,6 +205,7 @@ def pull(net, doors, scratch, first, last, count, gx, gy, goal_cell, last_try):
     corners = funnel(doors, scratch.edges, first, last, False, work, at, 0, sx, sy, gx, gy)
     radius = doors.radius
     edges = scratch.edges
+    fetch_corners(net, doors, edges, at, corners)
     lx, ly, rounding = sx, sy, 0.0
     for i in range(1, corners):
         rounding -= sqrt((work[i, 0] - work[i - 1, 0]) ** 2 + (work[i, 1] - work[i - 1, 1]) ** 2)

@@ -5,7 +5,8 @@ import math
 import numpy as np
 
 from navmesh.graph.kernel_arrays import net_of
-from navmesh.routes.foresight import _where_it_leaves, fetch_line
+from navmesh.graph.open_to_body import doors_of
+from navmesh.routes.foresight import _cell_of, _where_it_leaves, fetch_corners, fetch_line
 from tests.navmesh.routes.path_references import scene
 
 ROOM = 0.4
@@ -44,3 +45,17 @@ def test_nothing_is_asked_for_where_there_is_no_line_and_no_disc() -> None:
     assert _where_it_leaves(net, 0, -1e4, -1e4, 1.0, 0.0, 5.0, ROOM) == -1
     for b in ((1.0, 1.0), (1e9, -1e9)):
         fetch_line(net, nodes, 0, len(nodes), 1.0, 1.0, *b, ROOM)
+
+
+def test_the_cell_of_a_corner_is_that_of_its_end_of_the_portal() -> None:
+    graph, _ = scene(3, 9)
+    net, doors, surface = net_of(graph), doors_of(graph, ROOM, None, None), graph.surface
+    edges = np.arange(len(doors.doors), dtype=np.int32)[::-1].copy()
+    corners = np.arange(2 * len(edges), dtype=np.int32)
+    for at in corners:
+        door, side = int(edges[at // 2]), int(at % 2)
+        x, y = doors.doors["portal"][door, 3 * side : 3 * side + 2]
+        ix, iy = divmod(int(surface.cell_column[_cell_of(doors, edges, at)]), surface.shape[1])
+        assert abs(x / surface.resolution - ix - 0.5) < 0.5 + 1e-6
+        assert abs(y / surface.resolution - iy - 0.5) < 0.5 + 1e-6
+    fetch_corners(net, doors, edges, corners, len(corners))

@@ -12,7 +12,7 @@ from navmesh import NavmeshError, NodeGraph
 from navmesh.graph.kernel_arrays import make_scratch, net_of
 from navmesh.graph.open_to_body import doors_of, portals_of
 from navmesh.graph.snapping import snap
-from navmesh.routes.graph_search import BEST, COMPLETE, advance, begin
+from navmesh.routes.graph_search import ALL, BEST, COMPLETE, EXPANDED, advance, begin, resume
 from tests.navmesh.routes.path_references import (
     FIELD_ERROR,
     build,
@@ -91,6 +91,40 @@ def test_search_agrees_with_the_plain_one(seed: int) -> None:
             longer += total > 1.01 * found[0]
             checked += 1
     assert checked >= 4 and longer <= 1
+
+
+def test_ways_set_aside_lead_to_what_a_search_of_all_ways_finds() -> None:
+    expanded, kept, at_once, checked = [0, 0], 0, 0, 0
+    for seed in range(4):
+        graph, rng = scene(seed, 25)
+        net, origin = net_of(graph), graph.surface.origin
+        doors, scratch = doors_of(graph, 0.3, None, None), make_scratch(graph)
+        for _ in range(40):
+            places = rng.uniform(0.5, 13.5, (2, 2))
+            (first, _, *s), (last, _, *g) = (
+                snap(net, *(np.append(place, 0.0) - origin), 0.3, 1.1, 1.8, 0.2) for place in places
+            )
+            if min(first, last) < 0:
+                continue
+            totals = []
+            for every in (1, 0):
+                begin(net, doors, scratch, first, last, *s, -origin[2], *g, -origin[2])
+                scratch.numbers[ALL] = every
+                if advance(net, doors, scratch, 10**6) == COMPLETE:
+                    totals.append(scratch.labels["total"][scratch.numbers[BEST]])
+                expanded[every] += scratch.numbers[EXPANDED]
+            if not totals:
+                continue
+            best, found = totals
+            assert found >= best - 1e-9
+            at_once += found <= best + 1e-9
+            while resume(net, doors, scratch, 10**6) == COMPLETE:
+                found = min(found, scratch.labels["total"][scratch.numbers[BEST]])
+            kept += found <= best + 1e-9
+            checked += 1
+    assert kept == checked > 100
+    assert 0.85 * checked < at_once < checked
+    assert expanded[0] < 0.8 * expanded[1]
 
 
 def test_a_search_ended_early_gives_a_partial_route() -> None:

@@ -1,4 +1,4 @@
-"""What a walk looks like, noted at every physics step."""
+"""What a walk or run looks like, noted at every physics step."""
 
 import math
 from dataclasses import dataclass
@@ -108,25 +108,25 @@ class _Recorder:
         return Record(self.model.opt.timestep, **arrays, poses=poses, fell=fell)
 
 
-def learned_walk(skill: PolicySkill, speed: float, seconds: float) -> Record:
-    """The learned walk on a plane, from a stand."""
+def learned_walk(skill: PolicySkill, speed: float, seconds: float, warm_up: float = _WARM_UP) -> Record:
+    """The learned walk or run on a plane, from a stand; the first ``warm_up`` [s] do not count."""
     trial = PolicyTrial(skill)
     recorder = _Recorder(trial.model, trial.data)
     trial.go(_STANDS)
     trial.asked[0] = speed
-    held = trial.go(_WARM_UP) and trial.go(seconds, recorder.note)
+    held = trial.go(warm_up) and trial.go(seconds, recorder.note)
     return recorder.record(0, not held)
 
 
-def planned_walk(speed: float, seconds: float) -> Record:
-    """The walk of `locomotion.gaits.walk` along a straight line."""
+def planned_walk(speed: float, seconds: float, warm_up: float = _WARM_UP) -> Record:
+    """The same of the walk of `locomotion.gaits.walk`, or the run, along a straight line."""
     human = Human(None, clearing=(), rehearsals=0)
     human.reset(np.zeros(3), 0.0)
     human.follow(np.array([[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0]]), speed)
     data = mujoco.MjData(human.model)
     recorder, state = _Recorder(human.model, data), mujoco.mjtState.mjSTATE_INTEGRATION
     before = np.empty(mujoco.mj_stateSize(human.model, state))
-    for _ in range(round((_WARM_UP + seconds) / CONTROL_DT)):
+    for _ in range(round((warm_up + seconds) / CONTROL_DT)):
         mujoco.mj_getState(human.model, human.data, before, state)
         human.tick()
         mujoco.mj_setState(human.model, data, before, state)
@@ -136,4 +136,4 @@ def planned_walk(speed: float, seconds: float) -> Record:
             recorder.note()
         if human.data.qpos[2] < 0.6:
             return recorder.record(0, True)
-    return recorder.record(round(_WARM_UP / human.model.opt.timestep), False)
+    return recorder.record(round(warm_up / human.model.opt.timestep), False)

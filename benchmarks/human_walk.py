@@ -45,6 +45,26 @@ TARGETS: dict[str, tuple[str, str]] = {
     "left against right": ("%", "<= 4"),
 }
 """Unit of each figure, and what it should be."""
+RUN_TARGETS: dict[str, tuple[str, str]] = {
+    "speed": ("m/s", "as asked"),
+    "cadence": ("steps/s", ""),
+    "step width": ("mm", "no crossing"),
+    "rise": ("mm", "60 to 100"),
+    "flight": ("%", "20 to 40"),
+    "knee when loaded": ("deg", "40 to 45"),
+    "knee in swing": ("deg", "80 to 110"),
+    "slide": ("mm", "<= 10"),
+    "penetration": ("mm", "<= 10"),
+    "peak reaction": ("weights", "2 to 3"),
+    "hardest step": ("weights", "<= 3 at 3.5 m/s, 3.5 at 5 m/s"),
+    "shoulder range": ("deg", ""),
+    "elbow range": ("deg", ""),
+    "left against right": ("%", "<= 4"),
+    "hip_flexion off": ("deg", "<= 12"),
+    "knee_flexion off": ("deg", "<= 12"),
+    "ankle_flexion off": ("deg", "<= 12"),
+}
+"""The same of a run; of its joints, how far they are off the captured one's (root mean square)."""
 
 
 def human_cadence(speed: float) -> float:

@@ -1,8 +1,8 @@
 """Makes the pictures of ``docs/how-it-works/learned-walk.md``: the learned walk above the planned one,
-from the side and from the front, twelve moments of one cycle; and how it comes to a stand, is pushed there,
-and sets off.
+from the side and from the front, twelve moments of one cycle; how it comes to a stand, is pushed there,
+and sets off; the same views of the learned run above the planned one; and how it begins and ends.
 
-python examples/learned_walk_film.py [speed in m/s] [folder]
+python examples/learned_walk_film.py [speed of the walk in m/s] [folder]
 """
 
 import sys
@@ -19,10 +19,12 @@ from runtime.bodies.figure import Figure
 from runtime.views.filmstrip import show_frame
 from runtime.views.render import Camera, Triangles, render
 
-FRAMES, CYCLE = 12, 1.1
-"""Pictures in a row, and the seconds that they show."""
+FRAMES, CYCLE, RUN_CYCLE = 12, 1.1, 0.75
+"""Pictures in a row, and the seconds of a walk and a run that they show."""
+RUN = 3.5
+"""[m/s]"""
 SECONDS = 6.0
-"""[s] of walking before them."""
+"""[s] of walking or running before them."""
 CHANGE, PUSH = 2.6, 150.0
 """[s] of a change, and [N] for 0.1 s."""
 VIEWS = {"side": np.array([0.3, -3.4, 0.3]), "front": np.array([3.4, 0.0, 0.3])}
@@ -30,29 +32,34 @@ VIEWS = {"side": np.array([0.3, -3.4, 0.3]), "front": np.array([3.4, 0.0, 0.3])}
 HALF = 50.0  # [m] of the ground
 
 
-def learned(speed: float) -> np.ndarray:
-    """Poses (ticks, bodies, 7) of the learned walk."""
-    trial = PolicyTrial(load_policy())
-    trial.go(1.0)
-    trial.asked[0] = speed
-    trial.go(SECONDS)
+def filmed(trial: PolicyTrial, seconds: float) -> np.ndarray:
+    """Poses (ticks, bodies, 7) from now on."""
     poses = []
-    for _ in range(round(CYCLE / CONTROL_DT)):
+    for _ in range(round(seconds / CONTROL_DT)):
         trial.tick()
         poses.append(np.hstack([trial.data.xpos, trial.data.xquat])[1:])
     return np.array(poses)
 
 
-def planned(speed: float) -> np.ndarray:
-    """The same of the planned walk."""
+def learned(speed: float, seconds: float) -> np.ndarray:
+    """Poses of the learned walk or run."""
+    trial = PolicyTrial(load_policy())
+    trial.go(1.0)
+    trial.asked[0] = speed
+    trial.go(SECONDS)
+    return filmed(trial, seconds)
+
+
+def planned(speed: float, seconds: float) -> np.ndarray:
+    """The same of the planned one."""
     human = Human(None, clearing=(), rehearsals=0)
     human.reset(np.zeros(3), 0.0)
     human.follow(np.array([[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0]]), speed)
     poses = []
-    for _ in range(round((SECONDS + CYCLE) / CONTROL_DT)):
+    for _ in range(round((SECONDS + seconds) / CONTROL_DT)):
         human.tick()
         poses.append(human.body_transforms()[1:])
-    return np.array(poses[-round(CYCLE / CONTROL_DT) :])
+    return np.array(poses[-round(seconds / CONTROL_DT) :])
 
 
 def changes(speed: float) -> dict[str, np.ndarray]:
@@ -68,11 +75,19 @@ def changes(speed: float) -> dict[str, np.ndarray]:
         trial.asked[0] = told
         if push:
             trial.push(push, 0.0)
-        poses = []
-        for _ in range(round(CHANGE / CONTROL_DT)):
-            trial.tick()
-            poses.append(np.hstack([trial.data.xpos, trial.data.xquat])[1:])
-        films[name] = np.array(poses)
+        films[name] = filmed(trial, CHANGE)
+        trial.go(SECONDS)
+    return films
+
+
+def starts_and_stops(speed: float) -> dict[str, np.ndarray]:
+    """Poses of the learned run as it begins out of a walk, and as it ends."""
+    trial, films = PolicyTrial(load_policy()), {}
+    trial.asked[0] = 1.25
+    trial.go(SECONDS)
+    for name, told in (("out of a walk", speed), ("to a stand", 0.0)):
+        trial.asked[0] = told
+        films[name] = filmed(trial, CHANGE)
         trial.go(SECONDS)
     return films
 
@@ -98,10 +113,12 @@ def main() -> None:
     """Walk and draw."""
     speed = float(sys.argv[1]) if len(sys.argv) > 1 else 1.25
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else Path("docs/pictures")
-    walks = {f"learned, {speed:g} m/s": learned(speed), f"planned, {speed:g} m/s": planned(speed)}
-    for view, away in VIEWS.items():
-        draw(walks, away, folder / f"learned-walk-{view}.png")
+    for gait, pace, seconds in (("walk", speed, CYCLE), ("run", RUN, RUN_CYCLE)):
+        films = {f"{made.__name__}, {pace:g} m/s": made(pace, seconds) for made in (learned, planned)}
+        for view, away in VIEWS.items():
+            draw(films, away, folder / f"learned-{gait}-{view}.png")
     draw(changes(speed), VIEWS["side"], folder / "learned-walk-rest.png")
+    draw(starts_and_stops(RUN), VIEWS["side"], folder / "learned-run-rest.png")
 
 
 if __name__ == "__main__":

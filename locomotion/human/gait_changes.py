@@ -8,6 +8,7 @@ from functools import partial
 
 from locomotion.body_events import GotStuck
 from locomotion.gaits.limits import run_entry_speed
+from locomotion.gaits.run.layout import STEP_TIME
 from locomotion.human.composition import Composition
 from locomotion.human.person import Person
 from locomotion.human.state import MOVING
@@ -17,6 +18,7 @@ from locomotion.rehearsal.deciding import RECONSIDERS, Decider, Trial
 from locomotion.rehearsal.trials import (
     BALKINGS,
     BRAKINGS,
+    ENDINGS,
     HOLDS,
     RUN_UPS,
     SETTING_OFF,
@@ -45,6 +47,10 @@ _WALKS_ON = partial(walks_on, notes=True)
 
 def _slow_down(body: Chooser, deceleration: float) -> None:
     body.slow_down(deceleration)
+
+
+def _end_run(body: Chooser, _: bool) -> None:
+    body.end_run()
 
 
 def _brake(body: Chooser, harder: float) -> None:
@@ -116,7 +122,7 @@ class GaitChanges:
         stops = told or follower.pace == 0.0 or follower.brakes
         if not feet.brakes:
             follower.stops_since = (follower.stops_since or person.ticks) if stops else 0
-            if stops and self._brakes_or_will(told):
+            if self._ends_as_learned_or_will(stops) or (stops and self._brakes_or_will(told)):
                 return
         elif feet.slowing > 0.0 and follower.stops_since:
             self._brake_better()
@@ -144,6 +150,27 @@ class GaitChanges:
             self._decider.predicted.expect(person, seen)
         else:
             self._slow_as_rehearsed(BALKINGS, balk, _WALKS_ON)
+
+    def _ends_as_learned_or_will(self, stops: bool) -> bool:
+        """End the run as learned if it has to slow down and a foot has just come down; return whether it
+        does, or will try at the next step."""
+        person, feet, follower = self._person, self._person.on_feet, self._person.follower
+        if feet.slowing > 0.0 or not (stops or person.status not in MOVING or not follower.runs):
+            return False
+        if feet.landing.acts or not feet.can_end_run(person.simulation):
+            return False
+        if person.control[STEP_TIME] != 0.0:
+            return True
+        goes_well = ComesToRest() if stops else _WALKS_ON
+        _, went, seen, known = self._decider.best(person, ENDINGS, _end_run, goes_well)
+        since = person.ticks - follower.stops_since
+        may_wait = since < _TRIES if stops else follower.begins_to_slow
+        if not known and self._decider.answer is not None and may_wait:
+            return True
+        if went > 0.0:
+            person.end_run()
+            self._decider.predicted.expect(person, seen)
+        return went > 0.0
 
     def _brakes_or_will(self, told: bool) -> bool:
         """Try to brake; return whether it does, or will try again shortly.

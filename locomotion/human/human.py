@@ -45,10 +45,12 @@ from locomotion.human.composition import Composition, checked_bravery
 from locomotion.human.falls import fall, tick_on_all_fours
 from locomotion.human.gait_changes import GaitChanges
 from locomotion.human.intent import course_on_way, course_to_rest
+from locomotion.human.learned_walk import RUN_STOPS
 from locomotion.human.on_feet import OnFeet
 from locomotion.human.person import Person
 from locomotion.human.state import CLEARING, MOVING, HumanState, Status
 from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.paths.table import PathTable, TrackingLimits
 from locomotion.paths.tracking import make_path
 from locomotion.recovery.on_all_fours import OnAllFours
 from locomotion.rehearsal.deciding import Decider
@@ -217,9 +219,9 @@ class Human(Person):
             raise LocomotionError("the person has fallen for good; reset it")
         check_obstacles(obstacles, self.clearing)
         edges = [obstacle.arc_length for obstacle in obstacles]
-        running = not self.on_feet.walks and not self.held
+        running = (not self.on_feet.walks or self.on_feet.runs_as_learned) and not self.held
         pace = float(np.linalg.norm(self.velocity[:2]))
-        table = make_path(path, speed, self.on_feet.limits, pace, edges, self.on_feet.walk_limits, running)
+        table = self._table(path, speed, pace, edges, running)
         start, here = table.table[0, :3], self.position
         gap = float(np.linalg.norm(start[:2] - here[:2]))
         if gap > STRAYED or abs(start[2] - here[2]) > STRAYED:
@@ -239,6 +241,20 @@ class Human(Person):
             self.status = "scrambling"
         goal = (float(table.goal[0]), float(table.goal[1]), float(table.goal[2]))
         self.events.append(SetOff(self.time, self.point, goal, table.length))
+
+    def _table(
+        self, path: ArrayLike, speed: float, pace: float, edges: Sequence[float], running: bool
+    ) -> PathTable:
+        """The ``path`` as it will follow it, see `make_path`: as learned if it can be on all of it."""
+        feet = self.on_feet
+
+        def make(limits: TrackingLimits) -> PathTable:
+            return make_path(path, speed, limits, pace, edges, feet.walk_limits, running)
+
+        if feet.learned is None or edges or not feet.walks:
+            return make(feet.limits)
+        table = make(feet.learned_limits)
+        return table if feet.learned.holds_along(table, self.simulation) else make(feet.limits)
 
     def arrive(self) -> None:
         """Take its present position as its goal."""
@@ -297,6 +313,8 @@ class Human(Person):
             return None
         if follower.path is None or self.status not in ("walking", "running"):
             limits = feet.walk_limits if feet.walks else feet.limits
+            if feet.runs_as_learned:
+                limits = replace(feet.limits, deceleration=RUN_STOPS)
             will_brake = feet.runs and self.decider.answer is not None
             if feet.brakes or will_brake:
                 limits = replace(limits, deceleration=BRAKING)
@@ -362,7 +380,8 @@ class Human(Person):
             moving = self.status in MOVING and self.ticks >= follower.starts
             planned = self.run_up.planned
             feet.steer(follower, state, moving, planned, self.ticks, self.command)
-            feet.choose_walk(follower, moving, self.simulation, self.command)
+            free = self.run_up.ahead is None
+            feet.choose_walk(follower, moving, self.simulation, self.command, free)
         feet.tick(self.simulation.lookup, state, self.command, data)
         if self.status != "fallen":
             if feet.runs:
@@ -373,6 +392,8 @@ class Human(Person):
         mujoco.mj_step(self.model, data, STEPS_PER_TICK)
         observe(self.index, self.model, data, state)
         feet.observe(self.index, state, self.command, data)
+        if feet.walks_as_learned and self.status in ("walking", "running"):
+            self.status = "running" if feet.runs_as_learned else "walking"
         if self.status == "fallen":
             return
         if self.run_up.clearing:

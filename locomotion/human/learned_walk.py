@@ -14,11 +14,15 @@ from numpy.typing import NDArray
 from locomotion.body.person import CONTROL_DT, PersonIndex
 from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.kernel import Parts, decide_tick, feel, new_memory
+from locomotion.gaits.policy.law import RUNS_FROM
 from locomotion.gaits.policy.level_ground import floor_at, is_level, is_level_around
 from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.gaits.policy.stand import stand_still
 from locomotion.gaits.run.controller import observe
 from locomotion.gaits.run.layout import COM_VELOCITY, FEET, PLANTED
+from locomotion.gaits.run.layout import HEADING as RUN_HEADING
+from locomotion.gaits.run.layout import STANCE as RUN_STANCE
+from locomotion.gaits.run.layout import TURN_RATE as RUN_TURN_RATE
 from locomotion.gaits.walk.controller import observe_walk
 from locomotion.gaits.walk.layout import (
     CLOCK,
@@ -40,7 +44,10 @@ from locomotion.paths import table as path
 from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
 from locomotion.paths.follower import PathFollower
 
-__all__ = ["ACTIVE", "MEMORY_SIZE", "MOST_TURN", "SLOWEST", "TICKS", "LearnedWalk", "memory_of"]
+__all__ = [
+    "ACTIVE", "MEMORY_SIZE", "MOST_TURN", "RUN_STOPS", "SLOWEST", "TICKS", "LearnedWalk", "memory_of",
+    "memory_of_run",
+]  # fmt: skip
 
 SLOWEST = 0.3
 """[m/s] that it walks at least; who is asked for less than half of it comes to rest."""
@@ -49,6 +56,10 @@ _SEES, _LEAVES = 2.6, 1.6
 _BEHIND = 0.5  # [m] behind it that have to be level, too: a foot is still there
 _AT_LEAST, _ASKEW = 0.5, 0.25  # [m/s] and [rad] off its way with which it takes over
 _DROPS = 2.0  # [m/s] downwards with which the ground has gone
+RUN_STOPS = 1.2
+"""[m/s^2] with which it comes to rest out of a run."""
+_REACTS = 0.3  # [s] before that
+_RUN_SEES = 4.0  # [m] of level ground more, for it to run
 _ROOM = 0.8  # [m] more to where a run begins
 MOST_TURN = 1.2
 """[rad/s] that it turns at most."""
@@ -56,10 +67,23 @@ _SIDEWAYS = 1.2  # [m/s^2] in a bend at most
 _EAGERNESS = 2.0  # [1/s] of turning towards the heading asked for
 _FACES = 0.1  # [rad] off that heading up to which a person at rest does not turn
 
-ACTIVE, TICKS = at.STATE_SIZE + at.FELT_SIZE, at.STATE_SIZE + at.FELT_SIZE + 1
-MEMORY_SIZE = TICKS + 1
-"""The memory of a `LearnedWalk`: the policy's memory, what it feels, whether it moves the person, and for how
-many ticks."""
+ACTIVE = at.STATE_SIZE + at.FELT_SIZE
+TICKS, MAY_RUN, MEMORY_SIZE = ACTIVE + 1, ACTIVE + 2, ACTIVE + 3
+"""The memory of a `LearnedWalk`: the policy's memory, what it feels, whether it moves the person, for how
+many ticks, and whether it may run here."""
+
+
+def memory_of_run(run: NDArray[np.float64], qvel: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The policy's memory, (STATE_SIZE,), with which it takes over from a ``run`` (its controller's state)
+    that has just put a foot down."""
+    heading = float(run[RUN_HEADING])
+    memory = new_memory(heading)
+    memory[[at.RUNNING, at.FAST]] = 1.0
+    memory[at.PHASE] = 0.0 if run[RUN_STANCE] < 0.0 else 0.5
+    speed = math.cos(heading) * qvel[0] + math.sin(heading) * qvel[1]
+    memory[[at.SPEED, at.TOLD]] = max(speed, SLOWEST)
+    memory[at.TURN_RATE] = min(max(run[RUN_TURN_RATE], -MOST_TURN), MOST_TURN)
+    return memory
 
 
 def memory_of(walk: NDArray[np.float64], qvel: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -91,6 +115,16 @@ class LearnedWalk:
         """Whether it moves the person."""
         return bool(self.memory[ACTIVE] > 0.0)
 
+    @property
+    def runs(self) -> bool:
+        """Whether it runs, or has not slowed down from a run yet."""
+        return self.active and bool(self._state[at.FAST] > 0.0)
+
+    @property
+    def may_run(self) -> bool:
+        """Whether it is to run where the path says so."""
+        return bool(self.memory[MAY_RUN] > 0.0)
+
     def leave(self) -> None:
         """Something else moves the person now."""
         self.memory[ACTIVE] = 0.0
@@ -114,6 +148,8 @@ class LearnedWalk:
     ) -> bool:
         """Whether it can go on from here, or take over from the planned ``walk``; ``moving``: whether the
         person is to go on along its path."""
+        if self.runs:
+            return True  # nothing else can go on from here
         way, active, arc = follower.path, self.active, follower.arc
         if way is None:
             return False
@@ -129,10 +165,31 @@ class LearnedWalk:
         rows = way.table
         first = round(arc / way.length * (len(rows) - 1))
         ahead = rows[first : first + round((far + _ROOM) / path.SPACING)]
-        if moving and (ahead[:, path.GAIT] == path.RUN).any():
+        if moving and not self.may_run and (ahead[:, path.GAIT] == path.RUN).any():
             return False
         begin, z = max(arc - _BEHIND, 0.0), float(body.position[2])
         return bool(is_level(body.lookup, rows, way.length, begin, arc + far, z))
+
+    def holds_along(self, way: path.PathTable, body: Simulation) -> bool:
+        """Whether it can move a person along the whole ``way``, which begins where the person is."""
+        z = float(body.position[2])
+        return bool(is_level(body.lookup, way.table, way.length, 0.0, way.length, z))
+
+    def look_ahead(self, follower: PathFollower, body: Simulation, free: bool) -> None:
+        """Find out whether it may run from here: on level ground, where a foot has just come down. ``free``:
+        whether no obstacle has to be cleared on the way."""
+        way, arc = follower.path, follower.arc
+        self.memory[MAY_RUN] = 0.0
+        if way is None or not free:
+            return
+        speed = math.hypot(*body.control[COM_VELOCITY][:2])
+        far = _RUN_SEES + speed * (_REACTS + speed / (2.0 * RUN_STOPS))
+        rows = way.table
+        first = round(arc / way.length * (len(rows) - 1))
+        runs = rows[first : first + round(far / path.SPACING), path.GAIT] == path.RUN
+        begin, z = max(arc - _BEHIND, 0.0), float(body.position[2])
+        may = runs.any() and is_level(body.lookup, rows, way.length, begin, arc + far, z)
+        self.memory[MAY_RUN] = float(may)
 
     def stand(self, body: Simulation, position: NDArray[np.float64], yaw: float) -> None:
         """Let a person that has been put down as planned stand as learned instead, on the ground point
@@ -145,6 +202,21 @@ class LearnedWalk:
         body.control[PLANTED] = body.control[FEET]
         self._state[:] = new_memory(yaw)
         self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
+
+    def can_end_run(self, body: Simulation) -> bool:
+        """Whether the ground is level where a running person is, and where it would come to rest."""
+        x, y, z = body.position.tolist()
+        vx, vy = body.control[COM_VELOCITY][:2]
+        far = _REACTS + math.hypot(vx, vy) / (2.0 * RUN_STOPS)
+        shares = np.linspace(0.0, 1.0, 2 + int(far * math.hypot(vx, vy)))
+        ways = [far * share for share in shares.tolist()]
+        return all(is_level_around(body.lookup, x + t * vx, y + t * vy, z) for t in ways)
+
+    def end_run(self, body: Simulation) -> None:
+        """Move a person from now on that runs, and has just put a foot down."""
+        self._state[:] = memory_of_run(body.control, body.data.qvel)
+        self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
+        feel(self._feet(body.index, body.data), body.data, self._felt)
 
     def take_over(self, body: Simulation, walk: NDArray) -> None:
         """Move a person from now on that walks as planned and has just put a foot down, or stands."""
@@ -191,6 +263,8 @@ class LearnedWalk:
     def _ask(self, command: NDArray) -> None:
         """What ``command`` asks of a walk that makes no steps aside."""
         speed = float(command[SPEED_ASKED])
+        if not self.may_run:
+            speed = min(speed, RUNS_FROM)
         speed = max(speed, SLOWEST) if speed > 0.5 * SLOWEST else 0.0
         aside = math.atan2(command[SIDEWAYS_ASKED], speed) if speed > 0.0 else 0.0
         off = wrap(command[HEADING_ASKED] + aside - self._state[at.HEADING])

@@ -75,6 +75,7 @@ _HASTE = 1.3  # [m/s] asked for above the last step's speed at most, lest it tri
 _FAST, _FAST_HASTE = 3.7, 0.8  # [m/s] from the first speed on, only this much above
 _CHANGED = 4.0  # steps after which a change of gait is complete
 _HELD_UP = 12.0  # steps after which a pushed person that has braked need not come to rest
+_GENTLY = 1.2  # [m/s^2] of slowing down as learned on its way
 _NOTHING = np.zeros(0)
 _UPRIGHT = 0.8  # [m] of the centre of mass over the lower foot of one that stands
 _STILL = 0.03  # [m/s] of the centre of mass at rest
@@ -89,6 +90,7 @@ class _Made(NamedTuple):
     first_steps: tuple[NDArray, ...]
     braking_steps: tuple[NDArray, ...]
     limits: TrackingLimits
+    learned_limits: TrackingLimits
     walk_limits: TrackingLimits
 
 
@@ -103,18 +105,20 @@ def _made_of(
 ) -> _Made:
     """Made once for all people with the same skills, which never change. ``learned``: whether they have the
     learned walk, too."""
-    walks = walk_limits(walk)
+    runs, walks = run_limits(run), walk_limits(walk)
     if learned:
         walks = replace(walks, tight=(walks.tight[0], MOST_TURN))
     return _Made(
         speed_up.run_tables(run), slow_down.run_tables(run), brake.run_tables(run),
-        slow_down.walk_tables(walk), brake.walk_tables(walk), run_limits(run), walks,
+        slow_down.walk_tables(walk), brake.walk_tables(walk), runs,
+        replace(runs, deceleration=_GENTLY, slowing=_GENTLY), walks,
     )  # fmt: skip
 
 
 class OnFeet:
     """``run_skill``, ``walk_skill``, ``slow_down_skill``, ``speed_up_skill``, ``brake_skill``: how it moves.
-    ``limits``, ``walk_limits``: paths that it can follow. ``walk``: memory of the walking controller
+    ``limits``, ``learned_limits``, ``walk_limits``: paths that it can follow running, as planned and as
+    learned, and walking. ``walk``: memory of the walking controller
     (`locomotion.gaits.walk.layout`). ``learned``: the learned walk, None if all walking is planned.
     ``slowing``: [m/s^2] of slowing down to a walk, 0 if it does not.
     ``brakes``: whether it stops in the shortest distance. ``hurries``: whether it accelerates into its
@@ -137,7 +141,9 @@ class OnFeet:
         made = _made_of(run, walk, slow_down, speed_up, brake, policy is not None)
         self._quick_run, self._slow_run, self._braking_run = made.quick_run, made.slow_run, made.braking_run
         self._first_steps, self._braking_steps = made.first_steps, made.braking_steps
-        self.limits, self.walk_limits = made.limits, made.walk_limits
+        self.limits, self.learned_limits, self.walk_limits = (
+            made.limits, made.learned_limits, made.walk_limits
+        )  # fmt: skip
         self.walk = new_walk()
         self.learned = None if policy is None else LearnedWalk(policy)
         self.residual = Residual(residual)
@@ -153,6 +159,11 @@ class OnFeet:
     def walks_as_learned(self) -> bool:
         """Whether the learned walk moves it."""
         return self.walks and self.learned is not None and self.learned.active
+
+    @property
+    def runs_as_learned(self) -> bool:
+        """Whether it runs as learned, or has not slowed down from that yet."""
+        return self.walks and self.learned is not None and self.learned.runs
 
     @property
     def learned_memory(self) -> NDArray[np.float64]:
@@ -238,9 +249,12 @@ class OnFeet:
         of one.
         """
         x, y = state[controller.COM][:2]
-        follower.track(_WALK_GAINS if self.walks else RUN_GAINS, x, y, self.speed, tick, command)
+        walks = self.walks and not self.runs_as_learned
+        follower.track(_WALK_GAINS if walks else RUN_GAINS, x, y, self.speed, tick, command)
         if self.walks:
             most = self.walk_skill.speed if follower.walks_fast else self.walk_limits.calm
+            if self.learned is not None and self.learned.may_run and follower.runs:
+                most = self.limits.speeds[1]
             self._steer_walk(state, moving, follower.pace, most, command)
         elif self.slowing > 0.0:
             slower = state[controller.SPEED] - self.slowing * CONTROL_DT
@@ -279,9 +293,11 @@ class OnFeet:
         if pace == 0.0:  # waiting: a person stepping in place drifts into those ahead
             command[HEADING_ASKED], command[SIDEWAYS_ASKED] = heading, 0.0
 
-    def choose_walk(self, follower: PathFollower, moving: bool, body: Simulation, command: NDArray) -> None:
+    def choose_walk(
+        self, follower: PathFollower, moving: bool, body: Simulation, command: NDArray, free: bool
+    ) -> None:
         """Where a foot has just come down, or in a stand: go on as learned, or as planned. ``moving``:
-        whether to continue along the path."""
+        whether to continue along the path; ``free``: whether no obstacle has to be cleared on it."""
         learned, walk = self.learned, self.walk
         if learned is None or not self.walks or walk[PHASE] == SINGLE or walk[CLOCK] > 0.0:
             return
@@ -291,6 +307,8 @@ class OnFeet:
         usual = learned.active or ready
         fades = self.residual.acts and walk[PHASE] != STANDING  # what is left in a stand is no more needed
         usual = usual and not self.brakes and not fades and not self.landing.acts
+        if usual:
+            learned.look_ahead(follower, body, free and moving)
         suits = usual and learned.suits(follower, moving, body, command, walk)
         if suits and not learned.active:
             self.residual.forget()
@@ -362,6 +380,21 @@ class OnFeet:
         """Begin to slow down from the run to a walk [m/s^2]; ``brakes``: stop in the shortest distance
         instead."""
         self.slowing, self.brakes = deceleration, brakes
+
+    def can_end_run(self, body: Simulation) -> bool:
+        """Whether the learned walk could take over from its run here, once a foot has come down."""
+        return self.learned is not None and self.learned.can_end_run(body)
+
+    def end_run(self, body: Simulation) -> None:
+        """Let the learned walk take over from a run whose foot has just come down."""
+        assert self.learned is not None
+        state = body.control
+        self.residual.forget()
+        self.walk[:] = new_walk(float(state[controller.HEADING]))
+        observe_walk(body.index, body.data, self.walk)
+        self.walk[CAUGHT], self.walk[WALK_STANCE] = 1.0, state[controller.STANCE]
+        self.slowing, self.brakes = 0.0, False
+        self.learned.end_run(body)
 
     def walk_if_slow(self, index: PersonIndex, state: NDArray, data: mujoco.MjData) -> bool:
         """Change to walking if it is slowing down and on a suitable foot; return whether it did."""

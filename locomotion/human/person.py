@@ -189,12 +189,12 @@ class Person:
 
     @property
     def gait_now(self) -> Gait:
-        """How it moves now: "walk" (or stand), "run", "slow run" on its way from a run to a walk, or
+        """How it moves now: "walk" (or stand), "run", "slow run" on its way from a planned run to a walk, or
         "scramble" (or getting up)."""
         if self.fours.active:
             return "scramble"
         if self.on_feet.walks:
-            return "walk"
+            return "run" if self.on_feet.runs_as_learned else "walk"
         return "run" if self.on_feet.runs else "slow run"
 
     @property
@@ -307,6 +307,13 @@ class Person:
         """Begin to brake, ``harder`` than learned by that share; this will hold."""
         self.follower.stops_since = 0
         self.on_feet.slow_down(harder * self.on_feet.brake_skill.deceleration, brakes=True)
+
+    def end_run(self) -> None:
+        """Go over from the run to the learned walk, which slows down; this will hold."""
+        self.follower.stops_since = self.follower.tried_to_slow = 0
+        self.on_feet.end_run(self.simulation)
+        if self.status in MOVING:
+            self.status = "walking"
 
     def vary_step(self, longer: Sequence[float]) -> None:
         """Lengthen the transfer and the swing of the step that has just begun [s]."""

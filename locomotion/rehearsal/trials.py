@@ -31,6 +31,7 @@ from surefoot.pausing import pause
 __all__ = [
     "BALKINGS",
     "BRAKINGS",
+    "ENDINGS",
     "HOLDS",
     "REHEARSALS",
     "RUN_UPS",
@@ -87,6 +88,8 @@ SETTING_OFF = tuple((quickly, run_up) for run_up in RUN_UPS[:3] for quickly in (
 Only a few, because it may as well begin at its next step."""
 SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
 """[m/s^2] by which the run's reference speed is lowered."""
+ENDINGS = (True,)
+"""The way to end a run as learned."""
 BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)
 """[m/s^2] the same for aborting a run-up: harder ones hold as well, and the obstacle is near."""
 BRAKINGS = (2.5, 2.8, 2.0, 2.3, 1.65, 1.3, 0.9)
@@ -245,7 +248,7 @@ def slows_down_in_time(body: Understudy, state: HumanState) -> Generator[None, N
             if _failed(body):
                 return False
             state = body.save_state()
-        elif question.choices not in (SLOWINGS, BRAKINGS) or len(answers) == _ASKED:
+        elif question.choices not in (ENDINGS, SLOWINGS, BRAKINGS) or len(answers) == _ASKED:
             return False
         else:
             _, choices, choose, goes_well = question

@@ -30,16 +30,22 @@ from locomotion.gaits.policy.law import (
     AT_REST,
     BEARING,
     BEARS,
+    BEGINS_AT,
+    BEGINS_WITHIN,
     BOTH_BEAR,
     BRAKING,
     CALM,
     FACING,
+    FASTEST_WALK,
     FEET_OFF,
     FIRST_STEPS,
     LAG_SHARE,
+    LATER,
     LIFT_OFF,
+    MOST_AHEAD,
     MOST_ASKEW,
     MOST_BEHIND,
+    MOST_LATE,
     MOST_MISS,
     MOST_TWIST,
     PENDULUM,
@@ -47,13 +53,25 @@ from locomotion.gaits.policy.law import (
     REST_TRIM,
     REST_TRIM_ENDS,
     REST_TRIM_RATE,
+    RUN_ACCELERATION,
+    RUN_BRAKING,
+    RUN_TRIM,
+    RUNS_FROM,
+    SETTLES_AT,
+    SETTLES_SLOWING,
+    SETTLES_WITHIN,
     SETTLING,
     SHIFTING,
     SOLE_AHEAD,
     SOLE_ASIDE,
+    STEADY,
+    STOPS_AT,
+    STOPS_WITHIN,
+    STRAIGHT,
     TRIM_IN_USE,
     TRIM_RATE,
     TURNING,
+    UNWINDS,
 )
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -114,9 +132,14 @@ def _row(speeds, speed):
 
 
 @kernel
+def _shown_speed(memory):
+    return memory[at.SPEED] if memory[at.FAST] > 0.0 else min(memory[at.SPEED], FASTEST_WALK)
+
+
+@kernel
 def _cycles_per_second(speeds, periods, memory):
     """How fast the cycle goes on, and how fast it usually would."""
-    i, a = _row(speeds, memory[at.SPEED])
+    i, a = _row(speeds, _shown_speed(memory))
     usual = 1.0 / ((1.0 - a) * periods[i] + a * periods[i + 1])
     share = min(max(1.0 + at.RATE_GAIN * memory[_PACE], at.SLOW_RATE), at.FAST_RATE)
     return share * usual * memory[at.RUNNING], usual
@@ -178,16 +201,37 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
     c, s = math.cos(memory[at.HEADING]), math.sin(memory[at.HEADING])
     ahead, left = c * qvel[0] + s * qvel[1], c * qvel[1] - s * qvel[0]
     wanted = 0.0 if memory[at.RESTED] < 0.0 else asked[at.ASKED_SPEED] - memory[at.TOLD]
-    if memory[at.LAG_AHEAD] + memory[at.TRIM] < -MOST_BEHIND:
+    lag = memory[at.LAG_AHEAD] + memory[at.TRIM]
+    fast, steady = memory[at.FAST] > 0.0, abs(wanted) < STEADY
+    off = min(MOST_BEHIND + LATER * memory[at.TOLD], MOST_LATE) if fast else MOST_BEHIND
+    if lag < -off:
         wanted = min(wanted, 0.0)
-    memory[at.TOLD] += min(max(wanted, -BRAKING * at.POLICY_DT), ACCELERATION * at.POLICY_DT)
+    if fast and lag > MOST_AHEAD:
+        wanted = max(wanted, 0.0)
+    slower, faster = BRAKING, ACCELERATION
+    if fast:
+        share = (memory[at.TOLD] - RUN_BRAKING[1]) / (RUN_BRAKING[2] - RUN_BRAKING[1])
+        slower += min(max(share, 0.0), 1.0) * (RUN_BRAKING[0] - BRAKING)
+        faster = RUN_ACCELERATION
+    memory[at.TOLD] += min(max(wanted, -slower * at.POLICY_DT), faster * at.POLICY_DT)
     slow = min(max(1.0 - memory[at.TOLD] / REST_TRIM_ENDS, 0.0), 1.0) * memory[at.RUNNING]
     slow = slow if to_stand else 0.0
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
     trim = memory[at.TRIM] + pull * at.POLICY_DT * (memory[at.TOLD] - ahead)
-    most = TRIM_IN_USE * max(memory[at.TOLD], 0.0) + slow * REST_TRIM
+    if fast and not steady:
+        trim = memory[at.TRIM] * (1.0 - UNWINDS)
+    most = (RUN_TRIM if fast else TRIM_IN_USE) * max(memory[at.TOLD], 0.0) + slow * REST_TRIM
     memory[at.TRIM] = min(max(trim, -most), most)
     memory[at.SPEED] = memory[at.TOLD] + memory[at.TRIM]
+    runs_on = asked[at.ASKED_SPEED] > RUNS_FROM
+    straight, off = abs(memory[at.TURN_RATE]) < STRAIGHT, max(abs(lag), abs(memory[at.LAG_LEFT]))
+    settled = straight and off < SETTLES_WITHIN
+    settled = settled and memory[at.TOLD] < (SETTLES_AT if steady else SETTLES_SLOWING)
+    settled = settled or (memory[at.TOLD] < STOPS_AT and off < STOPS_WITHIN)
+    begins = runs_on and straight and memory[at.TOLD] > BEGINS_AT and off < BEGINS_WITHIN
+    runs_on = runs_on and memory[at.TOLD] >= STOPS_AT
+    goes_on = begins or (fast and (runs_on or not settled))
+    memory[at.FAST] = 1.0 if goes_on and memory[at.RUNNING] > 0.0 else 0.0
     turn = 0.0 if rests else asked[at.ASKED_TURN]
     most = TURNING * at.POLICY_DT
     memory[at.TURN_RATE] += min(max(turn - memory[at.TURN_RATE], -most), most)
@@ -244,7 +288,7 @@ def _targets(speeds, periods, joints, rates, memory, ctrl):
     pace, usual = _cycles_per_second(speeds, periods, memory)
     i, a = 0, 0.0  # the stand
     if memory[at.RUNNING] > 0.0:
-        i, a = _row(speeds, memory[at.SPEED])
+        i, a = _row(speeds, _shown_speed(memory))
         i += 1
     share = memory[at.PHASE] + 0.5 * at.POLICY_DT * pace
     samples = joints.shape[1]
@@ -287,11 +331,11 @@ def _decide(network, seen, mirrored, memory):
 
 
 @allocating_kernel
-def decide_tick(motion, walk, stand, memory, asked, felt, qpos, qvel, ctrl):
+def decide_tick(motion, walk, stand, run, memory, asked, felt, qpos, qvel, ctrl):
     """Decide, and write the targets ``ctrl`` (39,) [rad] to hold for `layout.POLICY_DT`.
 
-    motion: the arrays of `locomotion.gaits.policy.motion.Motion`. walk, stand: networks, for who walks and
-    for who has come to rest: mean and deviation (82,) of the inputs, and weights
+    motion: the arrays of `locomotion.gaits.policy.motion.Motion`. walk, stand, run: networks, for who walks,
+    for who has come to rest, and for who is fast: mean and deviation (82,) of the inputs, and weights
     and biases of three layers, float32. The rest: see above.
     """
     speeds, periods, joints, rates, stance = motion
@@ -301,7 +345,9 @@ def decide_tick(motion, walk, stand, memory, asked, felt, qpos, qvel, ctrl):
     seen = np.empty(at.INPUTS)
     _observe(memory, felt, qpos, qvel, seen)
     mirrored = memory[at.PHASE] >= 0.5
-    if memory[at.RUNNING] > 0.0:
+    if memory[at.FAST] > 0.0:
+        _decide(run, seen, mirrored, memory)
+    elif memory[at.RUNNING] > 0.0:
         _decide(walk, seen, mirrored, memory)
     else:
         _decide(stand, seen, mirrored, memory)

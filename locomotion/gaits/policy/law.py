@@ -23,6 +23,7 @@ from locomotion.gaits.policy.layout import (
     ASKED_TURN,
     BODY_WEIGHT,
     CONTACTS,
+    FAST,
     FAST_RATE,
     FEET_AHEAD,
     FEET_LEFT,
@@ -63,16 +64,95 @@ from locomotion.gaits.policy.layout import (
 from locomotion.gaits.policy.motion import Motion
 
 __all__ = [
-    "ACCELERATION", "AT_REST", "BEARING", "BEARS", "BOTH_BEAR", "BRAKING", "CALM", "FACING", "FEET_OFF",
-    "FIRST_STEPS", "LAG_SHARE", "LIFT_OFF", "MOST_ASKEW", "MOST_BEHIND", "MOST_MISS", "MOST_TRIM",
-    "MOST_TWIST", "PENDULUM", "REACH", "REST_TRIM", "REST_TRIM_ENDS", "REST_TRIM_RATE", "SETTLING",
-    "SHIFTING", "SOLE_AHEAD", "SOLE_ASIDE", "TRIM_IN_USE", "TRIM_RATE", "TURNING", "Seen", "advance",
-    "along", "decide", "mirrored", "observe", "pace_share", "rate", "standing_miss", "targets",
-    "turned_feet", "turned_in", "up_and_yaw", "wrap",
+    "ACCELERATION",
+    "AT_REST",
+    "BEARING",
+    "BEARS",
+    "BEGINS_AT",
+    "BEGINS_WITHIN",
+    "BOTH_BEAR",
+    "BRAKING",
+    "CALM",
+    "FACING",
+    "FASTEST_WALK",
+    "FEET_OFF",
+    "FIRST_STEPS",
+    "LAG_SHARE",
+    "LATER",
+    "LEARNED_AHEAD",
+    "LEARNED_BRAKING",
+    "LIFT_OFF",
+    "MOST_AHEAD",
+    "MOST_ASKEW",
+    "MOST_BEHIND",
+    "MOST_LATE",
+    "MOST_MISS",
+    "MOST_TRIM",
+    "MOST_TWIST",
+    "PENDULUM",
+    "REACH",
+    "REST_TRIM",
+    "REST_TRIM_ENDS",
+    "REST_TRIM_RATE",
+    "RUNS_FROM",
+    "RUN_ACCELERATION",
+    "RUN_BRAKING",
+    "RUN_TRIM",
+    "SETTLES_AT",
+    "SETTLES_SLOWING",
+    "SETTLES_WITHIN",
+    "SETTLING",
+    "SHIFTING",
+    "SOLE_AHEAD",
+    "SOLE_ASIDE",
+    "STEADY",
+    "STOPS_AT",
+    "STOPS_WITHIN",
+    "STRAIGHT",
+    "TRIM_IN_USE",
+    "TRIM_RATE",
+    "TURNING",
+    "UNWINDS",
+    "Seen",
+    "advance",
+    "along",
+    "decide",
+    "mirrored",
+    "observe",
+    "pace_share",
+    "rate",
+    "shown_speed",
+    "standing_miss",
+    "targets",
+    "turned_feet",
+    "turned_in",
+    "up_and_yaw",
+    "wrap",
 ]  # fmt: skip
 
 ACCELERATION, BRAKING, TURNING = 1.0, 0.8, 2.0
 """[m/s^2] up and down, and [rad/s^2], at which speed and turn rate follow those asked for."""
+RUN_ACCELERATION = 1.8
+"""[m/s^2] up for who runs."""
+RUN_BRAKING, MOST_AHEAD = (3.5, 0.5, 2.0), 1.0
+"""[m/s^2] down for who runs at the last speed [m/s] or faster, less below, `BRAKING` at the speed before; and
+how much faster than told [m/s] the body may be for that to go on."""
+LEARNED_BRAKING, LEARNED_AHEAD = (3.0, 0.9, 2.4), 0.8
+"""The same while it is learned."""
+MOST_LATE, LATER, RUN_TRIM, UNWINDS = 0.8, 0.25, 0.12, 0.03
+"""[m/s] that the body of who runs may be slower than told, for that to go on, less at low speeds: as much as
+of who walks, and this share of the speed; the share of the speed that is added to it at most, while nothing
+else is asked; and the share of that which is taken back with each decision while something is."""
+FASTEST_WALK, RUNS_FROM = 2.3, 2.05
+"""[m/s] of the reference motion that who walks is shown at most, and asked for, above which it runs."""
+BEGINS_AT, BEGINS_WITHIN, STRAIGHT = 1.0, 0.4, 0.6
+"""[m/s] told, from which a run begins, if the body keeps to it within so much, and [rad/s] that it turns at
+most then."""
+SETTLES_AT, SETTLES_SLOWING, SETTLES_WITHIN, STEADY = 1.7, 1.2, 0.25, 0.05
+"""[m/s] told, up to which a run ends if that is what is asked for, and if more or less is; the body keeps to
+it within so much, and turns no more than that; and how far from what is asked counts as that."""
+STOPS_AT, STOPS_WITHIN = 0.3, 0.5
+"""[m/s] told, below which it ends in any case, if the body keeps to it within so much."""
 TRIM_RATE, MOST_TRIM, TRIM_IN_USE = 0.5, 0.15, 0.4
 """Part of the error of the speed that is added to it, per second, and the share of the speed that is added at
 most, first while the policy is learned, then in worlds."""
@@ -199,6 +279,12 @@ def pace_share(memory: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.clip(1.0 + RATE_GAIN * memory[:, ACTION.stop - 1], SLOW_RATE, FAST_RATE)
 
 
+def shown_speed(memory: NDArray[np.float64]) -> NDArray[np.float64]:
+    """[m/s] of the reference motion that is looked at, (n,)."""
+    most = np.where(memory[:, FAST] > 0.0, np.inf, FASTEST_WALK)
+    return np.minimum(memory[:, SPEED], most)
+
+
 def rate(memory: NDArray[np.float64], period: NDArray[np.float64]) -> NDArray[np.float64]:
     """Cycles per second, (n,), where one usually takes ``period`` [s]."""
     return pace_share(memory) / period * memory[:, RUNNING]
@@ -206,9 +292,10 @@ def rate(memory: NDArray[np.float64], period: NDArray[np.float64]) -> NDArray[np
 
 def targets(memory: NDArray[np.float64], motion: Motion) -> NDArray[np.float64]:
     """Target angles (n, 24) of `layout.JOINTS` [rad] until the next decision."""
-    period = motion.period(memory[:, SPEED])
+    speed = shown_speed(memory)
+    period = motion.period(speed)
     pace = rate(memory, period)
-    middle = motion.at(memory[:, PHASE] + 0.5 * POLICY_DT * pace, memory[:, SPEED], memory[:, RUNNING])
+    middle = motion.at(memory[:, PHASE] + 0.5 * POLICY_DT * pace, speed, memory[:, RUNNING])
     usual = period * pace  # the reference's rates are those of the usual pace
     moving = middle.read(motion.rates) * usual[:, None]
     found = middle.read(motion.joints) + LEAD * moving + SCALE * memory[:, ACTION.start : ACTION.stop - 1]
@@ -273,7 +360,7 @@ def advance(
     it; ``halts``: whether the cycle stops for those who come to rest; ``steadies``: whether they are helped
     not to creep away in place and to keep their speed, most of which the policy is to learn by itself;
     ``waits``: whether the speed told waits for a body that is too slow."""
-    pace = rate(memory, motion.period(memory[:, SPEED]))
+    pace = rate(memory, motion.period(shown_speed(memory)))
     before, running = memory[:, PHASE], memory[:, RUNNING] > 0.0
     after = before + POLICY_DT * pace
     to_stand = (asked[:, ASKED_SPEED] < AT_REST) & (np.abs(asked[:, ASKED_TURN]) < FACING)
@@ -298,16 +385,36 @@ def advance(
     v = along(memory[:, HEADING], seen.qvel[:, :3])
     wanted = np.where(memory[:, RESTED] < 0.0, 0.0, asked[:, ASKED_SPEED] - memory[:, TOLD])
     lag = memory[:, LAG_AHEAD] + memory[:, TRIM] * steadies
-    behind = waits & (lag < -MOST_BEHIND)
+    fast = memory[:, FAST] > 0.0
+    steady = np.abs(wanted) < STEADY
+    off = np.where(fast, np.minimum(MOST_BEHIND + LATER * memory[:, TOLD], MOST_LATE), MOST_BEHIND)
+    behind = waits & (lag < -off)
     wanted = np.where(behind, np.minimum(wanted, 0.0), wanted)
-    memory[:, TOLD] += np.clip(wanted, -BRAKING * POLICY_DT, ACCELERATION * POLICY_DT)
+    ahead = MOST_AHEAD if steadies else LEARNED_AHEAD
+    wanted = np.where(fast & (lag > ahead), np.maximum(wanted, 0.0), wanted)
+    most, less, full = RUN_BRAKING if steadies else LEARNED_BRAKING
+    runs = np.clip((memory[:, TOLD] - less) / (full - less), 0.0, 1.0) * memory[:, FAST]
+    slower = BRAKING + runs * (most - BRAKING)
+    faster = np.where(fast, RUN_ACCELERATION, ACCELERATION)
+    memory[:, TOLD] += np.clip(wanted, -slower * POLICY_DT, faster * POLICY_DT)
     slow = np.clip(1.0 - memory[:, TOLD] / REST_TRIM_ENDS, 0.0, 1.0) * memory[:, RUNNING]
     slow *= to_stand & steadies
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
     trim = memory[:, TRIM] + pull * POLICY_DT * (memory[:, TOLD] - v[:, 0])
-    most = (TRIM_IN_USE if steadies else MOST_TRIM) * np.maximum(memory[:, TOLD], 0.0)
+    trim = np.where(fast & ~steady, memory[:, TRIM] * (1.0 - UNWINDS), trim)
+    share = np.where(fast, RUN_TRIM, TRIM_IN_USE if steadies else MOST_TRIM)
+    most = share * np.maximum(memory[:, TOLD], 0.0)
     memory[:, TRIM] = np.clip(trim, -most - slow * REST_TRIM, most + slow * REST_TRIM)
     memory[:, SPEED] = memory[:, TOLD] + memory[:, TRIM]
+    goes_on, runs_on = memory[:, RUNNING] > 0.0, asked[:, ASKED_SPEED] > RUNS_FROM
+    straight, aside = np.abs(memory[:, TURN_RATE]) < STRAIGHT, np.abs(memory[:, LAG_LEFT])
+    settled = straight & (memory[:, TOLD] < np.where(steady, SETTLES_AT, SETTLES_SLOWING))
+    settled &= np.maximum(np.abs(lag), aside) < SETTLES_WITHIN
+    settled |= (memory[:, TOLD] < STOPS_AT) & (np.maximum(np.abs(lag), aside) < STOPS_WITHIN)
+    begins = runs_on & straight & (memory[:, TOLD] > BEGINS_AT)
+    begins &= np.maximum(np.abs(lag), aside) < BEGINS_WITHIN
+    runs_on &= memory[:, TOLD] >= STOPS_AT
+    memory[:, FAST] = goes_on & (begins | (fast & (runs_on | ~settled)))
     most = TURNING * POLICY_DT
     turn = np.where(rests, 0.0, asked[:, ASKED_TURN])
     memory[:, TURN_RATE] += np.clip(turn - memory[:, TURN_RATE], -most, most)

@@ -11,7 +11,7 @@ from locomotion.body.person import CONTROL_DT, JOINT_NAMES, MASS
 
 __all__ = [
     "ACTION", "ACTIONS", "ANGLES", "ANKLE_SOLE", "ASKED", "ASKED_SPEED", "ASKED_TURN", "BODY_WEIGHT",
-    "CONTACTS", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT", "FEET_RISE", "FELT_SIZE", "FLOOR", "FORCES",
+    "CONTACTS", "FAST", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT", "FEET_RISE", "FELT_SIZE", "FLOOR", "FORCES",
     "GRAVITY_UP", "HEADING", "HEELS_AND_BALLS", "HEIGHT_SEEN", "HIP_ROTATIONS", "INPUTS", "JOINTS", "LAGS",
     "LAG_AHEAD", "LAG_LEFT", "LEAD", "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "MOST_INPUT",
     "PHASE", "POLICY_DT", "RATES", "RATE_GAIN", "RESTED", "RUNNING", "SCALE", "SIGN_ACTION", "SIGN_JOINT",
@@ -82,16 +82,17 @@ MOST_INPUT = 8.0
 """Deviations from the mean by which an input counts at most."""
 
 # ---- memory
-PHASE, RUNNING, RESTED, HEADING, SPEED, TURN_RATE, LAG_AHEAD, LAG_LEFT, STARTED, TOLD, TRIM, FLOOR = range(12)
-_M = 12
+PHASE, RUNNING, RESTED, HEADING, SPEED, TURN_RATE, LAG_AHEAD, LAG_LEFT, STARTED, TOLD, TRIM = range(11)
+FLOOR, FAST = 11, 12
+_M = 13
 ACTION = slice(_M, _M + ACTIONS)
 STATE_SIZE = _M + ACTIONS
 """The memory of a policy: share of the cycle, 0 to 1, from the right heel's strike; whether it goes on; [s]
 since it has nothing to do but to stand, below 0 while it sets off; heading [rad], speed [m/s] and turn
 rate [rad/s] that it keeps to; low-passed errors of the speed; whether it has decided before; speed [m/s]
 that follows the one asked for, and what it adds to that because it is too slow or too fast; height of the
-ground under it [m], which whoever moves it over a ground keeps up to date; and its last decisions, in the
-person's own left and right."""
+ground under it [m], which whoever moves it over a ground keeps up to date; whether it runs, or has not slowed
+down from a run to a walk yet; and its last decisions, in the person's own left and right."""
 ASKED_SPEED, ASKED_TURN = 0, 1
 """What a caller asks for: speed [m/s] and turn rate [rad/s]."""
 

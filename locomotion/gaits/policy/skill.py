@@ -32,13 +32,15 @@ class PolicySkill:
 
     Attributes:
       motion: the reference motion.
-      walk, stand: the networks for walking, and for standing after that.
+      walk, stand, run: the networks for walking, for standing after that, and for running and slowing down
+        from there.
       meta: what made it.
     """
 
     motion: Motion
     walk: Network
     stand: Network
+    run: Network
     meta: dict[str, Any] = field(default_factory=dict)
 
     @property
@@ -46,7 +48,7 @@ class PolicySkill:
         """The first arguments of `locomotion.gaits.policy.kernel.decide_tick`."""
         motion = self.motion
         tables = (motion.speeds, motion.periods, motion.joints, motion.rates, motion.stance)
-        return tables, self.walk, self.stand
+        return tables, self.walk, self.stand, self.run
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the policy for the present person; the file appears whole or not at all."""
@@ -55,6 +57,7 @@ class PolicySkill:
             "speeds": motion.speeds, "periods": motion.periods, "stance": motion.stance,
             "joints": motion.joints.astype(np.float32), "rates": motion.rates.astype(np.float32),
             **network_arrays("walk", self.walk), **network_arrays("stand", self.stand),
+            **network_arrays("run", self.run),
         }  # fmt: skip
         header = {"person": person_digest(), "joints": list(JOINTS), "meta": self.meta}
         write_archive(path, POLICY_FILE.kind, POLICY_FILE.version, header, arrays)
@@ -71,7 +74,7 @@ def _check(header: _PolicyHeader, arrays: dict[str, np.ndarray]) -> str | None:
 _N = len(JOINTS)
 POLICY_FILE = Schema(
     kind="policy",
-    version=2,
+    version=3,
     header=_PolicyHeader,
     arrays={
         "speeds": speeds("speeds"),
@@ -81,6 +84,7 @@ POLICY_FILE = Schema(
         "rates": weights("speeds+1", "samples", _N),
         **network_schema("walk", INPUTS, ACTIONS),
         **network_schema("stand", INPUTS, ACTIONS),
+        **network_schema("run", INPUTS, ACTIONS),
     },
     remedy=RELEARN,
     check=_check,
@@ -92,5 +96,5 @@ def load_policy(path: str | os.PathLike[str] = WALK_POLICY) -> PolicySkill:
     header, arrays = read_skill(path, POLICY_FILE)
     wide = {name: arrays[name].astype(np.float64) for name in ("joints", "rates")}
     motion = Motion(arrays["speeds"], arrays["periods"], wide["joints"], wide["rates"], arrays["stance"])
-    walk, stand = (read_network(name, arrays) for name in ("walk", "stand"))
-    return PolicySkill(motion, walk, stand, header.meta)
+    walk, stand, run = (read_network(name, arrays) for name in ("walk", "stand", "run"))
+    return PolicySkill(motion, walk, stand, run, header.meta)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.gaits.policy.layout import MOST_INPUT
+from locomotion.gaits.policy.network_file import Network
 from locomotion.training.policies.network import Adam, Layers, Values, backward, forward, new_layers
 
 __all__ = ["Agent", "Batch", "advantages"]
@@ -21,6 +22,7 @@ _CLIP, _EPOCHS, _PART = 0.2, 4, 2048
 _CHANGE = 0.018  # wanted divergence of the new policy from the old one
 _CRITIC_RATE, _SLOWEST, _FASTEST = 1e-3, 2e-5, 2e-3
 _LEAST_NOISE, _MOST_NOISE = 0.04, 0.5
+_LEAST_VARIANCE = 1e-4  # of an input
 _FORGET = 2_000_000.0  # samples after which statistics of the inputs hardly change
 _EVERY = 7  # part of the samples on which the divergence is measured
 
@@ -72,6 +74,20 @@ class Agent:
         self.rate = 3e-4
         self._improve, self._improve_critic = Adam([*self.actor, self.spread], 1.0), Adam(self.critic, 5.0)
 
+    @property
+    def network(self) -> Network:
+        """What is used at run time of what was learned."""
+        deviation = np.sqrt(self.variance + _LEAST_VARIANCE).astype(np.float32)
+        return self.mean.copy(), deviation, *(layer.copy() for layer in self.actor)
+
+    def begin_as(self, network: Network) -> None:
+        """Decide as a ``network`` does, and learn from there."""
+        mean, deviation, *layers = network
+        self.mean[:], self.counted = mean, _FORGET
+        self.variance[:] = deviation**2 - np.float32(_LEAST_VARIANCE)
+        for mine, theirs in zip(self.actor, layers, strict=True):
+            mine[...] = theirs
+
     def count_in(self, observed: NDArray[np.float64]) -> None:
         """Learn how large inputs are, from some (n, inputs)."""
         n, mean, variance = len(observed), observed.mean(axis=0), observed.var(axis=0)
@@ -83,7 +99,7 @@ class Agent:
 
     def scaled(self, observed: NDArray[np.float64]) -> Values:
         """Inputs of the networks, (n, inputs)."""
-        x = (observed - self.mean) / np.sqrt(self.variance + 1e-4)
+        x = (observed - self.mean) / np.sqrt(self.variance + _LEAST_VARIANCE)
         return np.clip(x, -MOST_INPUT, MOST_INPUT).astype(np.float32)
 
     def decide(self, inputs: Values) -> Values:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-__all__ = ["STANDING", "WALKING", "Stage"]
+__all__ = ["RUNNING", "STANDING", "WALKING", "Stage"]
 
 
 @dataclass(frozen=True)
@@ -19,6 +19,7 @@ class Stage:
       stand: share of the orders that are to come to rest. While the walk is learned these people step in
         place.
       stands: whether standing is learned, and not the walk. It is over for who has to make a step.
+      runs: whether running is learned, and slowing down from it, and not the walk.
       from_starts: share of those who begin in one of the given states, if there are any.
       changes: whether orders change, every 3 s on average.
       waits: whether the policy is not told to be faster while its body is too slow, as in worlds. That
@@ -37,6 +38,7 @@ class Stage:
     slope: float = 0.0
     stand: float = 0.0
     stands: bool = False
+    runs: bool = False
     from_starts: float = 0.0
     changes: bool = False
     waits: bool = True
@@ -72,6 +74,26 @@ WALKING = (
     ),
 )  # fmt: skip
 """Walking at 0 to 2.2 m/s: 0 is to step in place, and to turn on the spot."""
+
+_FIRM = {"speed": 0.2, "nears": 0.2, "impact": -0.3}
+
+RUNNING = (
+    Stage(
+        "first strides", 1_200_000, (0.8, 4.5), turn=0.4, runs=True, from_starts=0.3, waits=False,
+        noise=(0.2, 0.15), longest=300,
+        weights={"speed": 0.125, "nears": 0.125, "impact": -0.1, "slip": -0.3},
+    ),
+    Stage(
+        "all paces", 3_000_000, (0.3, 5.0), turn=0.8, push=150.0, stand=0.1, runs=True, from_starts=0.4,
+        changes=True, waits=False, noise=(0.15, 0.1), weights=_FIRM,
+    ),
+    Stage(
+        "sure", 6_500_000, (0.3, 5.0), turn=1.0, push=300.0, slope=0.04, stand=0.2, runs=True,
+        from_starts=0.4, changes=True, waits=False, noise=(0.1, 0.045), weights=_FIRM,
+    ),
+)  # fmt: skip
+"""Running at up to 5 m/s, begun on the finished walk: setting off, slowing down, also out of a planned run,
+and coming to step in place."""
 
 STANDING = (
     Stage(

@@ -14,6 +14,7 @@ from locomotion.gaits.policy.layout import (
     ACTION,
     ACTIONS,
     ASKED_SPEED,
+    FAST,
     FELT_SIZE,
     FORCES,
     HEADING,
@@ -182,7 +183,7 @@ class Environment:
         orders = self._orders(k, self.stage.stand, _BEGIN_TURNING)
         memory = np.zeros((k, STATE_SIZE))
         memory[:, SPEED], memory[:, TURN_RATE] = orders.T
-        memory[:, TOLD] = memory[:, SPEED]
+        memory[:, TOLD], memory[:, FAST] = memory[:, SPEED], self.stage.runs
         stands = (orders[:, ASKED_SPEED] < law.AT_REST) & (self.stage.stands | (rng.random(k) < 0.5))
         memory[stands, TURN_RATE] = 0.0
         halves = 0.5 * rng.integers(0, 2, k)
@@ -202,7 +203,7 @@ class Environment:
         self.memory[ids, RUNNING] = 0.0 if self.stage.stands else 1.0
         root, joints = place.read(reference.root), place.read(reference.joints)
         qpos, qvel = np.zeros((k, self.model.nq)), np.zeros((k, self.model.nv))
-        qpos[:, 1:3], qpos[:, 3:7] = root[:, :2], quaternions(root[:, 2:5])
+        qpos[:, 1], qpos[:, 3:7] = root[:, 0], quaternions(root[:, 2:5])
         limits = self.figure.limits
         angles = joints + _ANGLE * rng.standard_normal((k, len(JOINTS)))
         qpos[:, self.figure.angles] = np.clip(angles, limits[:, 0], limits[:, 1])
@@ -211,6 +212,7 @@ class Environment:
         qvel[:, self.figure.rates] = place.read(reference.rates) + _RATE * rng.standard_normal(
             (k, len(JOINTS))
         )
+        qpos[:, 2] = root[:, 1] * self.stage.runs
         for i, q, v in zip(ids.tolist(), qpos, qvel, strict=True):
             self._put(i, q, v)
         if self._starts is not None:
@@ -226,6 +228,7 @@ class Environment:
         mujoco.mj_kinematics(self.model, data)
         soles = data.site_xpos[self.figure.soles].copy()
         raised = 0.001 - soles[:, 2].min()
+        raised = max(raised, 0.0) if qpos[2] > 0.0 else raised
         soles[:, 2] += raised
         self.physics[i] = 0.0
         self.physics[i, 1 : 1 + nq], self.physics[i, 1 + nq : 1 + nq + len(qvel)] = qpos, qvel
@@ -265,6 +268,7 @@ class Environment:
         self.physics[broken] = 0.0
         self.physics[broken, 4] = 1.0
         changes, switched = self._advance()
+        self.memory[:, FAST] = self.stage.runs
         self._change_orders()
         self.age += 1
         moment = self._moment(sensed[:, :, FORCES], soles, before)
@@ -315,13 +319,14 @@ class Environment:
         decided_before: NDArray[np.float64],
     ) -> Moment:
         memory, reference, seen = self.memory, self.reference, self.seen()
-        place = self.motion.at(memory[:, PHASE], memory[:, SPEED], memory[:, RUNNING])
+        speed = law.shown_speed(memory)
+        place = self.motion.at(memory[:, PHASE], speed, memory[:, RUNNING])
         root = place.read(reference.root)
         roll, pitch, facing = root[:, 2], root[:, 3], root[:, 4]
         up, yaw = law.up_and_yaw(self.qpos)
         wanted = np.stack([-np.sin(pitch), np.sin(roll) * np.cos(pitch)], axis=1)
         feet = law.along(memory[:, HEADING], seen.soles - self.qpos[:, None, :3])
-        turned = law.turned_feet(memory, memory[:, PHASE], self.motion.period(memory[:, SPEED]))
+        turned = law.turned_feet(memory, memory[:, PHASE], self.motion.period(speed))
         feet -= _turn(place.read(reference.soles), turned)
         velocity = law.along(memory[:, HEADING], self.qvel[:, :3])
         joints = place.read(reference.joints)

@@ -10,6 +10,7 @@ from locomotion.gaits.policy.law import pace_share
 from locomotion.gaits.policy.layout import (
     ACTION,
     BODY_WEIGHT,
+    FAST,
     JOINTS,
     LAG_AHEAD,
     LAG_LEFT,
@@ -24,6 +25,7 @@ WEIGHTS: dict[str, float] = {
     "feet": 0.15,
     "root": 0.2,
     "speed": 0.25,
+    "nears": 0.0,
     "load": 0.25,
     "rise": 0.2,
     "change": -0.08,
@@ -34,11 +36,12 @@ WEIGHTS: dict[str, float] = {
 }
 TERMS = tuple(WEIGHTS)
 """Names of the terms. Up to 1 for being like the reference: ``pose`` (joint angles), ``rates``, ``feet``
-(heels and tips from the root), ``root`` (attitude, height, spin), ``speed``, ``load`` (what each foot bears),
-``rise`` (speed up and down). At a cost: ``change`` and ``effort`` of decisions, ``pace`` other than the
-usual, ``impact`` above 1.5 body weights, ``slip``: speed of the lowest point of a foot, toes included, that
-touches the ground [m/s]."""
-_FIRM = 1.5  # [body weights]
+(heels and tips from the root), ``root`` (attitude, height, spin), ``speed``, ``nears`` (the same, but also
+felt far off), ``load`` (what each foot bears), ``rise`` (speed up and down). At a cost: ``change`` and
+``effort`` of decisions, ``pace`` other than the usual, ``impact`` above 1.5 body weights, ``slip``: speed
+of the lowest point of a foot, toes included, that touches the ground [m/s]."""
+_FIRM, _FIRM_RUN = 1.5, 2.8  # [body weights]
+_FAR_OFF = 0.15  # share of the error of the speed that counts
 _TOUCHES = 12.0  # per body weight: a tenth of it counts nearly as the whole
 _WEIGHTED = {
     "knee_flexion": 2.0,
@@ -98,11 +101,13 @@ def sway_off(angles: NDArray[np.float64]) -> NDArray[np.float64]:
 def rewards(m: Moment) -> dict[str, NDArray[np.float64]]:
     """All terms, (n,) each."""
     action = m.memory[:, ACTION]
-    lag = m.memory[:, LAG_AHEAD] ** 2 + 0.5 * m.memory[:, LAG_LEFT] ** 2
+    off = 4.0 * (m.velocity[:, :2] ** 2).sum(1)
+    off += 25.0 * (m.memory[:, LAG_AHEAD] ** 2 + 0.5 * m.memory[:, LAG_LEFT] ** 2)
     feet = m.feet * np.array([1.0, 4.0, 1.0])
     root = 10.0 * (m.up**2).sum(1) + 4.0 * m.yaw**2 + 120.0 * m.height**2 + 0.1 * (m.spin**2).sum(1)
     per_foot = m.forces.reshape(*m.forces.shape[:2], 2, 2).sum(3) / BODY_WEIGHT
-    over = np.clip(per_foot.max(1) - _FIRM, 0.0, 2.0)
+    firm = np.where(m.memory[:, FAST] > 0.0, _FIRM_RUN, _FIRM)
+    over = np.clip(per_foot.max(1) - firm[:, None], 0.0, 2.0)
     bears = per_foot.mean(1)
     gone = np.linalg.norm(m.soles[:, :, :2] - m.soles_before[:, :, :2], axis=2) / POLICY_DT
     lowest = m.soles[:, :, 2].reshape(-1, 2, 3).argmin(axis=2)
@@ -112,7 +117,8 @@ def rewards(m: Moment) -> dict[str, NDArray[np.float64]]:
         "rates": np.exp(-0.02 * (LIKENESS * m.rates**2).sum(1)),
         "feet": np.exp(-12.0 * (feet**2).sum((1, 2))),
         "root": np.exp(-root),
-        "speed": np.exp(-4.0 * (m.velocity[:, :2] ** 2).sum(1) - 25.0 * lag),
+        "speed": np.exp(-off),
+        "nears": np.exp(-_FAR_OFF * off),
         "load": np.exp(-2.0 * ((bears - m.loads) ** 2).sum(1)),
         "rise": np.exp(-10.0 * m.velocity[:, 2] ** 2),
         "change": ((action - m.decided_before) ** 2).mean(1),

@@ -6,59 +6,62 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-import numpy as np
-
 from locomotion.body.person import person_digest
-from locomotion.gaits.policy.network_file import Network
 from locomotion.gaits.policy.skill import WALK_POLICY, PolicySkill
 from locomotion.training.policies.agent import Agent
-from locomotion.training.policies.curriculum import STANDING, WALKING, Stage
+from locomotion.training.policies.curriculum import RUNNING, STANDING, WALKING, Stage
 from locomotion.training.policies.environment import Environment, Starts, motion_of, where_it_ended
 from locomotion.training.policies.learning import Learning, tells
 from locomotion.training.policies.reference import make_reference
-from locomotion.training.policies.takeovers import takeovers
+from locomotion.training.policies.running_reference import with_run
+from locomotion.training.policies.takeovers import out_of_runs, takeovers
 from locomotion.training.policies.trial import PolicyTrial
 from locomotion.training.search.checkpoint import claim
 from locomotion.training.training import NotLearnedError, Training
 from surefoot.files.archive import check_target
 
-__all__ = ["network_of", "train_walk_policy"]
+__all__ = ["train_walk_policy"]
 
-_TESTED = (0.8, 1.25, 1.8)
+_TESTED = (0.8, 1.25, 1.8, 3.5)
 """Speeds [m/s] that a policy must walk at to be of use."""
 _STANDS, _WALKS = 6.0, 12.0  # [s]
 _PEOPLE = 256  # who learn at once
-_TAKEOVERS = 6000  # states of planned walks from which some begin
-
-
-def network_of(agent: Agent) -> Network:
-    """What is used at run time of what was learned."""
-    deviation = np.sqrt(agent.variance + 1e-4).astype(np.float32)
-    return agent.mean.copy(), deviation, *(layer.copy() for layer in agent.actor)
+_TAKEOVERS, _OUT_OF_RUNS = 6000, 3000  # states of planned walks, and runs, from which some begin
 
 
 def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POLICY) -> PolicySkill:
     """Train the walk, then the stand from how walks end, and write both to ``out``."""
-    walking, standing = (_scaled(stages, training.effort) for stages in (WALKING, STANDING))
+    walking, running, standing = (_scaled(stages, training.effort) for stages in (WALKING, RUNNING, STANDING))
     check_target(out)
     if training.checkpoint is not None:
         asked = {"skill": "walk-policy", "seed": training.seed, "effort": training.effort}
-        stages = hashlib.sha256(repr((walking, standing)).encode()).hexdigest()[:16]
+        stages = hashlib.sha256(repr((walking, running, standing)).encode()).hexdigest()[:16]
         claim(training.checkpoint, {**asked, "person": person_digest(), "stages": stages})
-    reference = make_reference()
+    reference = with_run(make_reference())
 
-    def learn(name: str, stages: Sequence[Stage], seed: int, starts: Starts | None = None) -> Agent:
+    def learn(
+        name: str,
+        stages: Sequence[Stage],
+        seed: int,
+        starts: Starts | None = None,
+        first: Agent | None = None,
+    ) -> Agent:
         checkpoint = training.file(name)
         people = partial(Environment, reference, stages[0], _PEOPLE, starts=starts)
-        return Learning(people, stages, seed, checkpoint, tells(training.on_progress)).run()
+        learning = Learning(people, stages, seed, checkpoint, tells(training.on_progress))
+        if first is not None:
+            learning.agent.begin_as(first.network)
+        return learning.run()
 
-    walker = learn("walk", walking, 2 * training.seed, takeovers(_TAKEOVERS, training.seed))
+    seed = training.seed
+    walker = learn("walk", walking, 2 * seed, takeovers(_TAKEOVERS, seed))
+    runner = learn("run", running, seed, out_of_runs(_OUT_OF_RUNS, seed), walker)
     stops = replace(walking[-1], stand=0.8, push=100.0)
     environment = Environment(reference, stops, _PEOPLE, training.seed, steadies=True)
     ends = where_it_ended(environment, lambda seen: walker.decide(walker.scaled(seen)))
     stander = learn("stand", standing, 2 * training.seed + 1, ends)
     motion, meta = motion_of(reference), training.made_by("walk-policy")
-    skill = PolicySkill(motion, network_of(walker), network_of(stander), meta)
+    skill = PolicySkill(motion, walker.network, stander.network, runner.network, meta)
     _demand_success(skill)
     skill.save(out)
     return skill

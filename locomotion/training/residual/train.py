@@ -23,7 +23,6 @@ from locomotion.skills.registry import skill_kinds
 from locomotion.training.gaits.brake import draw_starts
 from locomotion.training.policies.groups import Group, Groups
 from locomotion.training.policies.learning import Learning, tells
-from locomotion.training.policies.walk import network_of
 from locomotion.training.residual.braking import SPEEDS, BrakingStage, braking_group
 from locomotion.training.residual.landing import LandingStage, landing_group, on_course
 from locomotion.training.search.checkpoint import claim
@@ -118,7 +117,7 @@ def _train(
         agent = learning.run()
     finally:
         people.end()
-    skill = ResidualSkill(network_of(agent), corrected(name), training.made_by(name))
+    skill = ResidualSkill(agent.network, corrected(name), training.made_by(name))
     held = holds(skill, training.seed)
     if held < _HOLD * _TRIALS:
         raise NotLearnedError(

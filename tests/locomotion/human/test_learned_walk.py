@@ -156,24 +156,63 @@ def test_who_is_put_beside_a_kerb_stands_as_planned():
     assert not walker(Ground.from_arrays(kerb, faces)).on_feet.walks_as_learned
 
 
-def test_told_to_run_as_it_walks_it_begins_to_run_as_planned():
+def test_told_to_run_as_it_walks_it_runs_as_learned_and_slows_down_to_its_goal():
     human = walker()
     human.follow([[0, 0, 0], [60, 0, 0]], 1.4)
     while human.arc_length < 3.0:
         human.tick()
-    assert human.on_feet.walks_as_learned
-    human.follow([human.com * [1, 1, 0], [60, 0, 0]], 3.5)
-    learned = []
-    while human.gait_now == "walk":
-        learned.append(human.on_feet.walks_as_learned)
+    human.follow([human.com * [1, 1, 0], [45, 0, 0]], 3.5)
+    speeds = []
+    while human.status in ("walking", "running") and human.time < 40.0:
         human.tick()
-    assert learned[0] and not any(learned[-10:])
+        speeds.append((human.arc_length, human.velocity[0]))
+        assert human.on_feet.walks_as_learned
+        assert (human.gait_now == "run") == (human.status == "running") == human.on_feet.runs_as_learned
+    arcs, speed = np.array(speeds).T
+    assert human.status == "arrived"
+    assert speed[(arcs > 18.0) & (arcs < 30.0)].mean() == pytest.approx(3.5, abs=0.25)
+    assert speed[arcs > arcs[-1] - 1.0].max() < 1.6
+
+
+def test_where_the_way_has_a_kerb_it_slows_down_before_and_takes_it_as_planned():
+    kerb = np.array([[x, y, z] for x, z in ((-5, 0), (25, 0), (25.001, 0.1), (60, 0.1)) for y in (-3, 3.0)])
+    faces = [f for k in range(3) for f in ([2 * k, 2 * k + 2, 2 * k + 3], [2 * k, 2 * k + 3, 2 * k + 1])]
+    human = walker(Ground.from_arrays(kerb, faces))
+    human.follow([[0, 0, 0], [40, 0, 0.1]], 3.5)
+    ran = False
+    while human.status in ("walking", "running") and human.time < 60.0:
+        human.tick()
+        ran |= human.on_feet.runs_as_learned and human.velocity[0] > 3.0
+        if abs(human.arc_length - 25.0) < 0.5:
+            assert not human.on_feet.walks_as_learned
+    assert ran and human.status == "arrived"
+
+
+def planned_runner(speed):
+    """One in a planned run, from which the learned one has not taken over."""
+    human = walker()
+    human.reset((0.0, 0.0, 0.0), 0.0, speed)
+    human.follow([[0, 0, 0], [60, 0, 0]], speed)
+    return human
+
+
+@pytest.mark.parametrize("speed", [2.6, 3.4, 4.2])
+def test_a_planned_run_ends_as_learned(speed):
+    human = planned_runner(speed)
+    while human.arc_length < 14.0:
+        human.tick()
+    assert not human.on_feet.walks
+    human.stop()
+    while not human.held and human.status != "fallen":
+        human.tick()
+        assert human.on_feet.slowing == 0.0
+    assert human.status == "standing" and human.on_feet.walks_as_learned
+    assert human.on_feet.at_rest(human.control)
 
 
 def braking(harder, after=14.0):
     """One who runs, and has just begun to brake."""
-    human = walker()
-    human.follow([[0, 0, 0], [60, 0, 0]], 3.0)
+    human = planned_runner(3.0)
     while human.arc_length < after:
         human.tick()
     human.brake(harder)

@@ -127,7 +127,7 @@ def test_a_runner_goes_over_to_physics_at_once_and_no_tick_is_long(plain, monkey
     ada.detail = "physics"
     assert ada.level == "physics"
     world.step(0.01)
-    assert ada.human.on_feet.slowing > 0.0 and ada.human.follower.tried_to_slow > 0  # not rehearsed
+    assert not ada.human.on_feet.walks
     while ada.moving:
         made[0] = 0
         world.step(0.01)

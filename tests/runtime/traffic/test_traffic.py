@@ -170,7 +170,7 @@ def test_who_is_told_again_to_go_where_others_stand_stays(hall):
 
 
 def test_a_person_finishes_going_over_to_another_gait_before_it_gives_way():
-    world = World(floor((0.0, 0.0, 40.0, 6.0)))
+    world = World(floor((0.0, 0.0, 40.0, 6.0)), walk="planned")
     runner = world.spawn("human", (2.0, 3.0, 0.0))
     runner.go_to((38.0, 3.0, 0.0), speed=3.0)
     asked = {}

@@ -71,7 +71,7 @@ def test_refuses_a_bad_goal_and_a_bad_level(graph):
             agent.go_to((4.0, 3.0, 0.0), speed=speed)
     with pytest.raises(RuntimeInputError, match="facing must be"):
         agent.go_to((4.0, 3.0, 0.0), facing="north")
-    with pytest.raises(RuntimeInputError, match="Terrain or a NodeGraph"):
+    with pytest.raises(RuntimeInputError, match="a Terrain, a NodeGraph or an OpenWorld"):
         World("level.obj")  # type: ignore[arg-type]
 
 

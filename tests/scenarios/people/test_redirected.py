@@ -126,7 +126,7 @@ def test_told_to_stay_where_it_is_it_comes_back(field, speed, seconds):
 
 
 @pytest.mark.parametrize(
-    ("body", "speed", "farthest"), [("human", 3.5, 3.2), ("dog", 2.0, 1.5), ("walker", 1.4, 0.8)]
+    ("body", "speed", "farthest"), [("human", 3.5, 5.6), ("dog", 2.0, 1.5), ("walker", 1.4, 0.8)]
 )
 def test_told_to_stop_it_stands_soon_and_goes_on_when_told(field, body, speed, farthest):
     world = unhurried(field)

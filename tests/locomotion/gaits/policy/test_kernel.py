@@ -23,7 +23,7 @@ def skill() -> PolicySkill:
     rng = np.random.default_rng(3)
     joints, rates = 0.2 * rng.standard_normal((2, 4, 16, len(at.JOINTS)))
     motion = Motion(
-        np.array([0.0, 0.9, 2.0]), np.array([1.6, 1.3, 0.9]), joints, rates, np.array([0.05, 0.15])
+        np.array([0.0, 0.9, 4.0]), np.array([1.6, 1.3, 0.6]), joints, rates, np.array([0.05, 0.15])
     )
 
     def network():
@@ -31,7 +31,7 @@ def skill() -> PolicySkill:
         mean, deviation = rng.standard_normal(at.INPUTS), rng.uniform(0.5, 2.0, at.INPUTS)
         return mean.astype(np.float32), deviation.astype(np.float32), *layers
 
-    return PolicySkill(motion, network(), network())
+    return PolicySkill(motion, network(), network(), network())
 
 
 def plain_tick(skill, memory, asked, seen):
@@ -39,7 +39,8 @@ def plain_tick(skill, memory, asked, seen):
     if memory[0, at.STARTED]:
         law.advance(memory, skill.motion, asked[None], seen)
     memory[0, at.STARTED] = 1.0
-    mean, deviation, *layers = skill.walk if memory[0, at.RUNNING] else skill.stand
+    network = skill.walk if memory[0, at.RUNNING] else skill.stand
+    mean, deviation, *layers = skill.run if memory[0, at.FAST] else network
     x = (law.observe(memory, seen) - mean) / deviation
     law.decide(memory, forward(layers, np.clip(x, -8.0, 8.0).astype(np.float32))[-1])
     return law.targets(memory, skill.motion)[0]
@@ -79,10 +80,10 @@ def test_it_decides_as_the_plain_form_from_what_its_sensors_say(skill):
 
 
 def test_it_decides_as_the_plain_form_from_any_state(skill):
-    """Standing, about to, stepping in place, setting off, walking; near a stand and far from one."""
+    """Standing, about to, stepping in place, setting off, walking, running; near a stand and far from one."""
     rng, columns = np.random.default_rng(5), [JOINT_NAMES.index(name) for name in at.JOINTS]
-    changes = set()
-    for _ in range(400):
+    changes, gaits = set(), set()
+    for _ in range(800):
         memory = new_memory(rng.uniform(-3.0, 3.0))
         memory[at.STARTED], memory[at.RUNNING] = 1.0, rng.integers(2)
         memory[at.PHASE] = rng.uniform(0.0, 1.0)
@@ -93,7 +94,12 @@ def test_it_decides_as_the_plain_form_from_any_state(skill):
         memory[at.TURN_RATE], memory[at.TRIM] = rng.choice([0.0, 0.03, -0.7]), rng.uniform(-0.3, 0.3)
         memory[[at.LAG_AHEAD, at.LAG_LEFT]] = rng.choice([0.02, 0.5]) * rng.normal(size=2)
         memory[at.ACTION] = rng.normal(size=at.ACTIONS)
-        asked = np.array([rng.choice([0.0, 0.03, 0.2, 1.5]), rng.choice([0.0, 0.03, 0.9])])
+        memory[at.FAST] = memory[at.RUNNING] * rng.integers(2)
+        if memory[at.FAST]:
+            memory[[at.TOLD, at.SPEED]] *= rng.choice([1.0, 2.6])
+        asked = np.array([rng.choice([0.0, 0.03, 0.2, 1.5, 3.1]), rng.choice([0.0, 0.03, 0.9])])
+        if rng.random() < 0.2:
+            asked[at.ASKED_SPEED] = memory[at.TOLD] + 0.02
         seen = standing(skill, memory, rng.choice([0.0, 0.05, 0.1]), rng.choice([0.0, 0.1, 0.5]))
         seen.forces[0, 2 * rng.integers(2)] *= rng.choice([0.0, 0.5, 1.0])
         if rng.random() < 0.2:  # nearly at rest
@@ -105,12 +111,36 @@ def test_it_decides_as_the_plain_form_from_any_state(skill):
         qpos[:7], qvel[:6] = seen.qpos[0], seen.qvel[0]
         felt, plain = np.append(seen.soles.ravel(), seen.forces), memory[None].copy()
         wanted = plain_tick(skill, plain, asked, seen)
-        before = memory[at.RUNNING]
+        before, fast = memory[at.RUNNING], memory[at.FAST]
         decide_tick(*skill.tables, memory, asked, felt, qpos, qvel, ctrl)
         changes.add((before, memory[at.RUNNING]))
+        gaits.add((fast, memory[at.FAST]))
         np.testing.assert_allclose(memory, plain[0], atol=2e-5)
         np.testing.assert_allclose(ctrl[columns], wanted, atol=2e-5)
-    assert changes == {(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)}
+    assert changes == gaits == {(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)}
+
+
+def test_a_run_begins_when_it_is_asked_for_and_ends_when_the_body_is_slow(skill):
+    memory = new_memory(0.0)[None]
+    memory[:, at.RUNNING], memory[:, [at.TOLD, at.SPEED]] = 1.0, 1.2
+
+    def go(asked, seconds, speed=None):
+        for _ in range(round(seconds / at.POLICY_DT)):
+            pace = memory[0, at.TOLD] if speed is None else speed
+            law.advance(memory, skill.motion, np.array([[asked, 0.0]]), standing(skill, memory, speed=pace))
+
+    go(law.RUNS_FROM, 1.0)
+    assert memory[0, at.FAST] == 0.0
+    assert law.shown_speed(memory)[0] <= law.FASTEST_WALK
+    told = memory[0, at.TOLD]
+    go(5.0, 0.5)
+    assert memory[0, at.FAST] == 1.0
+    assert memory[0, at.TOLD] == pytest.approx(told + 0.5 * law.RUN_ACCELERATION, abs=0.05)
+    go(1.0, 4.0, speed=2.6)
+    assert memory[0, at.FAST] == 1.0, "the body is too fast yet"
+    go(1.0, 4.0)
+    assert memory[0, at.FAST] == 0.0
+    assert memory[0, at.TOLD] == pytest.approx(1.0)
 
 
 def test_the_mirror_image_of_a_person_decides_the_mirror_image(skill):

@@ -9,6 +9,7 @@ from locomotion.gaits.policy.layout import (
     ACTION,
     ACTIONS,
     BODY_WEIGHT,
+    FAST,
     JOINTS,
     LAG_AHEAD,
     POLICY_DT,
@@ -55,7 +56,9 @@ def test_a_hip_aside_counts_more_than_any_other_joint():
 def test_a_lag_of_the_speed_and_a_height(same):
     memory = same.memory.copy()
     memory[0, LAG_AHEAD] = 0.1
-    assert rewards(replace(same, memory=memory))["speed"][0] == pytest.approx(np.exp(-0.25))
+    terms = rewards(replace(same, memory=memory))
+    assert terms["speed"][0] == pytest.approx(np.exp(-0.25))
+    assert terms["nears"][0] == pytest.approx(np.exp(-0.0375))
     assert rewards(replace(same, height=np.array([0.05])))["root"][0] == pytest.approx(np.exp(-0.3))
 
 
@@ -64,6 +67,12 @@ def test_an_impact_above_one_and_a_half_body_weights(same):
     forces[0, 2, :2] = 1.2 * BODY_WEIGHT  # 2.4 under the right foot, in one step
     forces[0, 3, 2] = 1.4 * BODY_WEIGHT
     assert rewards(replace(same, forces=forces))["impact"][0] == pytest.approx(0.9**2)
+
+
+def test_who_runs_may_land_harder(same):
+    forces, memory = same.forces.copy(), same.memory.copy()
+    forces[0, 2, :2], memory[0, FAST] = 1.6 * BODY_WEIGHT, 1.0
+    assert rewards(replace(same, forces=forces, memory=memory))["impact"][0] == pytest.approx(0.4**2)
 
 
 def test_a_foot_that_slips_over_its_lowest_point(same):

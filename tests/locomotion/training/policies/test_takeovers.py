@@ -1,4 +1,4 @@
-"""States of planned walks from which the learned walk takes over."""
+"""States of planned walks and runs from which the learned ones take over."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from locomotion.gaits.policy import law
 from locomotion.gaits.policy import layout as at
 from locomotion.training.policies.curriculum import Stage
 from locomotion.training.policies.environment import Environment
-from locomotion.training.policies.takeovers import takeovers
+from locomotion.training.policies.takeovers import out_of_runs, takeovers
 
 
 @pytest.fixture(scope="module")
@@ -30,6 +30,24 @@ def test_a_foot_has_just_come_down_and_the_body_walks_where_it_faces(found):
     right = memory[:, at.PHASE] == 0.0
     lands = np.where(right[:, None], soles[:, 0, :, 2], soles[:, 1, :, 2])
     assert lands.min(axis=1).max() < 0.02
+
+
+def test_runs_have_just_put_a_foot_down():
+    found = out_of_runs(60, 5)
+    memory, qvel = found.memory, found.physics[:, -30:]
+    assert set(memory[:, at.PHASE]) == {0.0, 0.5}
+    assert (memory[:, [at.RUNNING, at.FAST]] == 1.0).all()
+    ahead = law.along(memory[:, at.HEADING], qvel[:, :3])[:, 0]
+    np.testing.assert_allclose(memory[:, at.SPEED], ahead)
+    assert ahead.min() > 1.5
+    assert np.ptp(ahead) > 1.5
+    right = memory[:, at.PHASE] == 0.0
+    soles = found.sensed[:, at.SOLES].reshape(-1, 2, 3, 3)
+    lands = np.where(right[:, None], soles[:, 0, :, 2], soles[:, 1, :, 2])
+    assert lands.min(axis=1).max() < 0.03
+    again, other = out_of_runs(60, 5), out_of_runs(60, 6)
+    np.testing.assert_array_equal(again.physics, found.physics)
+    assert not np.array_equal(other.physics, found.physics)
 
 
 def test_they_are_others_for_another_seed(found):

@@ -6,7 +6,7 @@ import pytest
 
 from locomotion.errors import LocomotionError
 from locomotion.training.policies import walk
-from locomotion.training.policies.curriculum import STANDING, WALKING
+from locomotion.training.policies.curriculum import RUNNING, STANDING, WALKING
 from locomotion.training.policies.walk import train_walk_policy
 from locomotion.training.training import NotLearnedError, Training
 
@@ -15,12 +15,13 @@ def test_what_does_not_walk_is_not_written(tmp_path, monkeypatch, reference):
     told = Counter()
     training = Training(0, tmp_path / "checkpoint", effort=1e-6, on_progress=lambda p: told.update([p.stage]))
     monkeypatch.setattr(walk, "WALKING", WALKING[4:])
+    monkeypatch.setattr(walk, "RUNNING", RUNNING[:1])
     monkeypatch.setattr(walk, "STANDING", STANDING[:1])
     monkeypatch.setattr(walk, "_PEOPLE", 16)
     monkeypatch.setattr(walk, "make_reference", lambda: reference)
     with pytest.raises(NotLearnedError, match=r"walk-policy does not work: at 0.8 m/s it falls within 18 s"):
         train_walk_policy(training, tmp_path / "policy.npz")
     assert not (tmp_path / "policy.npz").exists()
-    assert told == dict.fromkeys([WALKING[4].name, STANDING[0].name], 1)
+    assert told == dict.fromkeys([WALKING[4].name, RUNNING[0].name, STANDING[0].name], 1)
     with pytest.raises(LocomotionError, match="belongs to another configuration"):
         train_walk_policy(Training(1, tmp_path / "checkpoint", effort=1e-6), tmp_path / "policy.npz")

@@ -122,7 +122,7 @@ class GaitChanges:
         stops = told or follower.pace == 0.0 or follower.brakes
         if not feet.brakes:
             follower.stops_since = (follower.stops_since or person.ticks) if stops else 0
-            if self._ends_as_learned_or_will(stops) or (stops and self._brakes_or_will(told)):
+            if (stops and self._brakes_or_will(told)) or self._ends_as_learned_or_will(stops):
                 return
         elif feet.slowing > 0.0 and follower.stops_since:
             self._brake_better()

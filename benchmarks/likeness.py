@@ -145,10 +145,7 @@ def run(options: argparse.Namespace) -> dict[str, Any]:
     print(f"\nrunning at {speed:g} m/s" + "".join(f"; the {name} run fell" for name in fell))
     measured = {name: _run_figures(record, captured) for name, record in records.items() if not record.fell}
     as_captured = captured.steps_per_s * (0.2 * speed / captured.speed + 0.8)
-    people = {
-        **RUN_TARGETS,
-        "cadence": ("steps/s", f"{as_captured:.2f} by equation 8 as captured"),
-    }
+    people = {**RUN_TARGETS, "cadence": ("steps/s", f"{as_captured:.2f} by equation 8 as captured")}
     print(f"| {'':24} |" + "".join(f" {name:>9} |" for name in measured) + " people")
     print(f"| {'-' * 24} |" + " --------- |" * len(measured) + " ---")
     for name, (unit, wanted) in people.items():

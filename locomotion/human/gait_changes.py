@@ -122,14 +122,15 @@ class GaitChanges:
         stops = told or follower.pace == 0.0 or follower.brakes
         if not feet.brakes:
             follower.stops_since = (follower.stops_since or person.ticks) if stops else 0
-            if (stops and self._brakes_or_will(told)) or self._ends_as_learned_or_will(stops):
+            if stops and self._brakes_or_will(told):
                 return
         elif feet.slowing > 0.0 and follower.stops_since:
             self._brake_better()
         if feet.slowing > 0.0 and not feet.brakes and follower.tried_to_slow:
             self._slow_down_better()
         if feet.slowing == 0.0:
-            if person.status not in MOVING or not follower.runs or follower.pace == 0.0:
+            slows = person.status not in MOVING or not follower.runs or follower.pace == 0.0
+            if slows and not self._ends_as_learned_or_will(stops):
                 self._slow_down_or_will(stops)
         if feet.walk_if_slow(person.index, person.control, person.data) and person.status in MOVING:
             person.status = "walking"
@@ -152,11 +153,9 @@ class GaitChanges:
             self._slow_as_rehearsed(BALKINGS, balk, _WALKS_ON)
 
     def _ends_as_learned_or_will(self, stops: bool) -> bool:
-        """End the run as learned if it has to slow down and a foot has just come down; return whether it
-        does, or will try at the next step."""
+        """End the run as learned if a foot has just come down; return whether it does, or will try at the
+        next step."""
         person, feet, follower = self._person, self._person.on_feet, self._person.follower
-        if feet.slowing > 0.0 or not (stops or person.status not in MOVING or not follower.runs):
-            return False
         if feet.landing.acts or not feet.can_end_run(person.simulation):
             return False
         if person.control[STEP_TIME] != 0.0:

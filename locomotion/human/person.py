@@ -144,7 +144,7 @@ class Person:
         return self.data.qpos.copy()
 
     def pose(self) -> NDArray[np.float64]:
-        """(46,) `qpos` as it is shown: a person who stands as learned breathes and looks about."""
+        """(46,) `qpos` as viewers see it. A person who stands as learned breathes and looks about."""
         return self.shown(self.qpos, self.idles_for)
 
     @property
@@ -155,7 +155,7 @@ class Person:
         return 0.0
 
     def shown(self, qpos: NDArray[np.float64], idles_for: float) -> NDArray[np.float64]:
-        """``qpos`` (46,), which it changes, of one that has stood for so many seconds, as it is shown."""
+        """Change ``qpos`` (46,) to how viewers see a person that has stood for so many seconds; return it."""
         if idles_for > 0.0:
             qpos[7:] = idle_pose(qpos[7:], idles_for, self.habit)
         return qpos

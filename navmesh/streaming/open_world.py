@@ -239,11 +239,9 @@ class OpenWorld:
         first."""
         line = start + np.linspace(1.0, 0.0, _ALONG, endpoint=False)[:, None] * (end - start)
         there = line[self._covers(window, line)]
-        return (
-            there[np.unique(np.linspace(0, len(there) - 1, _TRIED).round().astype(int))]
-            if len(there)
-            else there
-        )
+        if not len(there):
+            return there
+        return there[np.unique(np.linspace(0, len(there) - 1, _TRIED).round().astype(int))]
 
     def _ends(
         self, window: _Window, body: Body, region: int, place: np.ndarray, radius: float

@@ -24,7 +24,7 @@ _REASONS = {
 class Beyond:
     """What of a way is loaded, and what comes after it.
 
-    ``told``: the points [m] that the body is told to go through, none where it has to wait. ``full``: how
+    ``told``: the points [m] that the body is told to go through; empty if it has to wait. ``full``: how
     many of the goals are among them, the first ones; behind those ``told`` may have one more point, where
     what is loaded ends. ``towards`` [m]: a coarse waypoint after that; once it is loaded the way leads
     farther. ``length`` [m]: of the way after ``told``.

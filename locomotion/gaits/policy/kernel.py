@@ -334,9 +334,9 @@ def _decide(network, seen, mirrored, memory):
 def decide_tick(motion, walk, stand, run, memory, asked, felt, qpos, qvel, ctrl):
     """Decide, and write the targets ``ctrl`` (39,) [rad] to hold for `layout.POLICY_DT`.
 
-    motion: the arrays of `locomotion.gaits.policy.motion.Motion`. walk, stand, run: networks, for who walks,
-    for who has come to rest, and for who is fast: mean and deviation (82,) of the inputs, and weights
-    and biases of three layers, float32. The rest: see above.
+    motion: the arrays of `locomotion.gaits.policy.motion.Motion`. walk, stand, run: the networks of a person
+    who walks, stands and runs: mean and deviation (82,) of the inputs, and weights and biases of three
+    layers, float32. The rest: see above.
     """
     speeds, periods, joints, rates, stance = motion
     if memory[at.STARTED] > 0.0:

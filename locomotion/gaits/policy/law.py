@@ -78,18 +78,20 @@ __all__ = [
 ACCELERATION, BRAKING, TURNING = 1.0, 0.8, 2.0
 """[m/s^2] up and down, and [rad/s^2], at which speed and turn rate follow those asked for."""
 RUN_ACCELERATION = 1.8
-"""[m/s^2] up for who runs."""
+"""[m/s^2] with which the speed told rises while a person runs."""
 RUN_BRAKING, MOST_AHEAD = (3.5, 0.5, 2.0), 1.0
-"""[m/s^2] down for who runs at the last speed [m/s] or faster, less below, `BRAKING` at the speed before; and
-how much faster than told [m/s] the body may be for that to go on."""
+"""[m/s^2] with which the speed told falls while a person runs, above the third number [m/s]; below that it
+falls more slowly, at the second number as slowly as `BRAKING`. It waits while the body is faster than told by
+more than `MOST_AHEAD` [m/s]."""
 LEARNED_BRAKING, LEARNED_AHEAD = (3.0, 0.9, 2.4), 0.8
 """The same while it is learned."""
 MOST_LATE, LATER, RUN_TRIM, UNWINDS = 0.8, 0.25, 0.12, 0.03
-"""[m/s] that the body of who runs may be slower than told, for that to go on, less at low speeds: as much as
-of who walks, and this share of the speed; the share of the speed that is added to it at most, while nothing
-else is asked; and the share of that which is taken back with each decision while something is."""
+"""While a person runs, the speed told waits for a body that is slower by more than `MOST_BEHIND` and the
+share `LATER` of the speed, but at most `MOST_LATE` [m/s]. What is added to the speed told is at most the
+share `RUN_TRIM` of it, and grows only at the speed asked for; otherwise it shrinks by the share `UNWINDS`
+with each decision."""
 FASTEST_WALK, RUNS_FROM = 2.3, 2.05
-"""[m/s] of the reference motion that who walks is shown at most, and asked for, above which it runs."""
+"""[m/s] of the fastest reference motion for a walk; and the speed asked for, above which a person runs."""
 BEGINS_AT, BEGINS_WITHIN, STRAIGHT = 1.0, 0.4, 0.6
 """[m/s] told, from which a run begins, if the body keeps to it within so much, and [rad/s] that it turns at
 most then."""
@@ -225,7 +227,7 @@ def pace_share(memory: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def shown_speed(memory: NDArray[np.float64]) -> NDArray[np.float64]:
-    """[m/s] of the reference motion that is looked at, (n,)."""
+    """(n,) [m/s]: the speed at which the reference motion is read."""
     most = np.where(memory[:, FAST] > 0.0, np.inf, FASTEST_WALK)
     return np.minimum(memory[:, SPEED], most)
 

@@ -30,7 +30,7 @@ _TAKEOVERS, _OUT_OF_RUNS = 6000, 3000  # states of planned walks, and runs, from
 
 
 def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POLICY) -> PolicySkill:
-    """Train the walk, then the stand from how walks end, and write both to ``out``."""
+    """Train the walk, then the run from there, and the stand from how walks end; write all to ``out``."""
     walking, running, standing = (_scaled(stages, training.effort) for stages in (WALKING, RUNNING, STANDING))
     check_target(out)
     if training.checkpoint is not None:

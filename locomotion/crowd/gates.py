@@ -5,17 +5,19 @@ cells covered by their discs, form one gate; whoever uses the passage crosses it
 corridors are gates.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
+from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
+from navmesh.disjoint_sets import root
 from navmesh.surface.clearance_field import centre_of
-from navmesh.surface.storeys import linked
+from navmesh.surface.recall import nearest_of, nearly_nearest_of
+from navmesh.surface.storeys import linked, over
 from navmesh.surface.surface import Surface
-from surefoot.kernels import allocating_kernel
+from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["ABREAST", "Gates", "find_gates"]
 
@@ -23,123 +25,170 @@ ABREAST = 3.25
 """A passage is a gate for a body if half its width is less than this many of the body's radii."""
 _OPPOSITE = -0.5
 """Cosine of the angle from which two walls are on opposite sides."""
+_ROUNDING = 1e-6
+"""By which cosines of nearly the nearest places may be wrong."""
 
 
 class Gates(NamedTuple):
     """The gates of a surface."""
 
-    of_cell: NDArray[np.int32]
-    """(cells,) the gate that a cell belongs to, or -1."""
+    row: NDArray[np.int32]
+    """(cells,) where in the arrays by ``covered`` a cell is, or -1 for cells of no gate."""
+    gate: NDArray[np.int32]
+    """(covered,) the gate that a cell belongs to."""
     along: NDArray[np.float64]
-    """(cells,) [m] distance from one end of its gate."""
+    """(covered,) [m] distance from one end of its gate."""
+    axis: NDArray[np.float64]
+    """(covered, 2) unit vector along the passage, with a consistent sense within a short gate."""
     width: NDArray[np.float64]
     """(gates,) [m] half the least width."""
-    axis: NDArray[np.float64]
-    """(cells, 2) unit vector along the passage, with a consistent sense within a short gate."""
 
 
-@allocating_kernel
-def _paint(net, throats, part, of_cell, by, pairs):
-    """Give the cells under the discs of ``throats`` to their parts, first come first served; returns how
-    many ``pairs`` of parts were found to overlap."""
-    queue = np.empty(of_cell.size, np.int64)
-    seen = np.full(of_cell.size, -1, np.int64)
-    count = 0
+@kernel(error_model="numpy", inline="always")
+def _cosine(net, ax, ay, a, bx, by, b):
+    """Between the directions of the places (ax, ay) and (bx, by) as seen from the cells a and b."""
+    near, other = max(net.clearance[a], 1e-9), max(net.clearance[b], 1e-9)
+    return ax / near * (bx / other) + ay / near * (by / other)
+
+
+@kernel(error_model="numpy")
+def _mark_throats(net, limit, found):
+    """Mark in ``found`` (cells,) bool the throats narrower than ``limit`` [m] from the middle to the wall."""
+    for c in range(found.shape[0]):
+        if not net.clearance[c] < limit:
+            continue
+        x, y = nearly_nearest_of(net, c)
+        for way in range(2):
+            n = linked(net, c, way)
+            if n < 0 or not net.clearance[n] < limit or (found[c] and found[n]):
+                continue
+            if net.source[c] == net.source[n] and min(net.clearance[c], net.clearance[n]) >= 2.0 * net.cell:
+                continue  # both look to the same place
+            px, py = nearly_nearest_of(net, n)
+            if _cosine(net, x, y, c, px, py, n) >= _OPPOSITE + _ROUNDING:
+                continue
+            ax, ay = nearest_of(net, c)
+            bx, by = nearest_of(net, n)
+            if _cosine(net, ax, ay, c, bx, by, n) < _OPPOSITE:
+                found[c] = found[n] = True
+
+
+@kernel(error_model="numpy", inline="always")
+def _cover(c, t, part, row, by, seen, parent, covered):
+    """Note that cell ``c`` is under the disc of throat ``t``: (whether that is new, cells covered by now)."""
+    at = row[c]
+    if at < 0:
+        row[c], by[covered], seen[covered] = covered, t, t
+        return True, covered + 1
+    if seen[at] == t:
+        return False, covered
+    seen[at] = t
+    if part[by[at]] != part[t]:
+        one, other = root(parent, part[by[at]]), root(parent, part[t])
+        parent[max(one, other)] = min(one, other)
+    return True, covered
+
+
+@allocating_kernel(error_model="numpy")
+def _paint(net, throats, part, row, parent):
+    """Give the cells under the discs of ``throats`` to these, first come first served: ``row`` (cells,) is
+    filled in, and the throat of each covered cell is returned. Where discs of two parts overlap, the parts
+    are joined: ``parent`` of each becomes the first of those that it is joined with."""
+    by, seen = np.empty(row.size, np.int32), np.empty(row.size, np.int32)
+    queue = np.empty((row.size, 3), np.int64)  # cell and its column in x and y; most of it is never touched
+    covered = 0
     for t in range(throats.size):
-        k = throats[t]
-        x, y = centre_of(net, k)
-        reach = net.clearance[k] + 0.5 * net.cell
-        queue[0], seen[k] = k, t
+        x, y = centre_of(net, throats[t])
+        reach = net.clearance[throats[t]] + 0.5 * net.cell
+        column = np.int64(net.cell_column[throats[t]])
+        queue[0, 0], queue[0, 1], queue[0, 2] = throats[t], column // net.ny, column % net.ny
         size, head = 1, 0
+        covered = _cover(throats[t], t, part, row, by, seen, parent, covered)[1]
         while head < size:
-            c = queue[head]
+            c, ix, iy = queue[head, 0], queue[head, 1], queue[head, 2]
             head += 1
-            if of_cell[c] < 0:
-                of_cell[c], by[c] = part[t], t
-            elif of_cell[c] != part[t] and count < pairs.shape[0]:
-                pairs[count, 0], pairs[count, 1] = of_cell[c], part[t]
-                count += 1
             for way in range(4):
-                other = linked(net, c, way)
-                if other < 0 or seen[other] == t:
+                jx, jy = ix + (way == 0) - (way == 2), iy + (way == 1) - (way == 3)
+                px, py = (jx + 0.5) * net.cell, (jy + 0.5) * net.cell
+                if (px - x) * (px - x) + (py - y) * (py - y) > reach * reach:
                     continue
-                px, py = centre_of(net, other)
-                if (px - x) * (px - x) + (py - y) * (py - y) <= reach * reach:
-                    seen[other] = t
-                    queue[size] = other
+                other = over(net, c, ix * net.ny + iy, way)
+                if other < 0:
+                    continue
+                new, covered = _cover(other, t, part, row, by, seen, parent, covered)
+                if new:
+                    queue[size, 0], queue[size, 1], queue[size, 2] = other, jx, jy
                     size += 1
-    return count
+    for p in range(parent.size):
+        parent[p] = root(parent, p)
+    return by[:covered].copy()
 
 
-def _throats(surface: Surface, nearest: NDArray[np.float64], limit: float) -> NDArray[np.int64]:
-    toward = nearest / np.maximum(surface.clearance, 1e-9)[:, None]
-    narrow = surface.clearance < limit
-    found = np.zeros(len(surface), dtype=bool)
-    link = surface.link
-    for way in range(2):
-        other = link[:, way]
-        between = (other >= 0) & narrow & narrow[other]
-        between &= np.sum(toward * toward[other], axis=1) < _OPPOSITE
-        found |= between
-        found[other[between]] = True
-    return np.flatnonzero(found)
+@allocating_kernel(error_model="numpy")
+def _passages(net, throats):
+    """(t, 2) unit vectors along the passages at ``throats``: across the way to the nearest wall."""
+    passage = np.empty((throats.size, 2))
+    for t in range(throats.size):
+        x, y = nearest_of(net, throats[t])
+        far = max(net.clearance[throats[t]], 1e-9)
+        passage[t, 0], passage[t, 1] = -(y / far), x / far
+    return passage
 
 
-def _joined(surface: Surface, throats: NDArray[np.int64]) -> coo_array:
+def _among(throats: NDArray[np.int64], cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Which of ``throats`` each of ``cells`` is, or -1."""
+    at = np.minimum(np.searchsorted(throats, cells), len(throats) - 1)
+    return np.where(throats[at] == cells, at, -1)
+
+
+def _joined(surface: Surface, throats: NDArray[np.int64]) -> csr_array:
     """The throats as a graph of links, straight or across a corner."""
-    at = np.full(len(surface), -1, dtype=np.int64)
-    at[throats] = np.arange(len(throats))
     source, target = [], []
     for way in range(4):
         one = surface.links(throats)[:, way]
         corner = np.where(one >= 0, surface.links(one)[:, (way + 1) % 4], -1)
-        for other in (one, corner):
-            hit = (other >= 0) & (at[other] >= 0)
-            source.append(np.flatnonzero(hit))
-            target.append(at[other[hit]])
+        for cells in (one, corner):
+            at = _among(throats, cells)
+            source.append(np.flatnonzero(at >= 0))
+            target.append(at[at >= 0])
     ends = np.concatenate(source), np.concatenate(target)
-    lengths = np.linalg.norm(surface.centers(throats)[ends[0]] - surface.centers(throats)[ends[1]], axis=1)
-    return coo_array((lengths, ends), shape=(len(throats), len(throats)))
+    centres = surface.centers(throats)
+    lengths = np.linalg.norm(centres[ends[0]] - centres[ends[1]], axis=1)
+    return csr_array((lengths, ends), shape=(len(throats), len(throats)))
 
 
 def _half_widths(surface: Surface, throats: NDArray[np.int64]) -> NDArray[np.float64]:
     """(t,) [m]: clearance of each throat or of the one across from it, whichever is nearer the middle."""
-    clearance = np.zeros(len(surface) + 1)
-    clearance[throats] = surface.clearance[throats]
-    return np.maximum(clearance[throats], clearance[surface.links(throats)].max(axis=1))
+    clearance = np.append(surface.clearance[throats], 0.0)
+    return np.maximum(clearance[:-1], clearance[_among(throats, surface.links(throats))].max(axis=1))
 
 
-def find_gates(surface: Surface, net: object, limit: float) -> Gates:
-    """The gates narrower than ``limit`` [m] from the middle to the wall."""
-    nearest = surface.nearest
-    throats = _throats(surface, nearest, limit)
-    of_cell = np.full(len(surface), -1, dtype=np.int32)
-    by = np.full(len(surface), -1, dtype=np.int64)
-    along = np.zeros(len(surface))
+def _first_by(key: NDArray[Any], group: NDArray[Any]) -> NDArray[np.int64]:
+    """For each of the groups 0, 1, …: the first of its members with the least ``key``."""
+    order = np.lexsort((key, group))
+    return order[np.searchsorted(group[order], np.arange(group.max() + 1))]
+
+
+def find_gates(surface: Surface, net: Any, limit: float) -> Gates:
+    """The gates narrower than ``limit`` [m] from the middle to the wall. ``net``: the `NET` of the surface's
+    graph."""
+    found = np.zeros(len(surface), np.bool_)
+    _mark_throats(net, limit, found)
+    throats = np.flatnonzero(found)
+    row = np.full(len(surface), -1, np.int32)
     if len(throats) == 0:
-        return Gates(of_cell, along, np.empty(0), np.zeros((len(surface), 2)))
+        return Gates(row, np.empty(0, np.int32), np.empty(0), np.empty((0, 2)), np.empty(0))
     joined = _joined(surface, throats)
     count, part = connected_components(joined, directed=False)
-    pairs = np.empty((16 * len(throats) + 1024, 2), dtype=np.int64)
-    found = _paint(net, throats, part.astype(np.int32), of_cell, by, pairs)
-    meeting = coo_array((np.ones(found), pairs[:found].T), shape=(count, count))
-    count, whole = connected_components(meeting, directed=False)
-    gate = whole[part]
-    covered = of_cell >= 0
-    of_cell[covered] = whole[of_cell[covered]]
-    way = np.zeros(len(throats))
-    width, half = np.empty(count), _half_widths(surface, throats)
-    across = nearest[throats] / np.maximum(surface.clearance[throats], 1e-9)[:, None]
-    axis, passage = np.zeros((len(surface), 2)), np.column_stack([-across[:, 1], across[:, 0]])
-    for number in range(count):
-        members = np.flatnonzero(gate == number)
-        width[number] = half[members].min()
-        against = passage[members] @ passage[members[np.argmin(half[members])]] < 0.0
-        passage[members[against]] *= -1.0
-    for number in range(part.max() + 1):  # distance from the farthest end
-        members = np.flatnonzero(part == number)
-        own = joined.tocsr()[members][:, members]
-        end = int(np.argmax(dijkstra(own, indices=0)))
-        way[members] = dijkstra(own, indices=end)
-    along[covered], axis[covered] = way[by[covered]], passage[by[covered]]
-    return Gates(of_cell, along, width, axis)
+    parent = np.arange(count, dtype=np.int32)
+    by = _paint(net, throats, part, row, parent)
+    gate = np.unique(parent, return_inverse=True)[1].astype(np.int32)[part]
+    half = _half_widths(surface, throats)
+    passage = _passages(net, throats)
+    narrowest = _first_by(half, gate)
+    passage[np.sum(passage * passage[narrowest[gate]], axis=1) < 0.0] *= -1.0
+    # distance from the farthest end
+    first = _first_by(np.zeros(len(throats)), part)
+    end = _first_by(-dijkstra(joined, indices=first, min_only=True), part)
+    way = dijkstra(joined, indices=end, min_only=True)
+    return Gates(row, gate[by], way[by], passage[by], half[narrowest])

@@ -37,7 +37,7 @@ _LONG = 1.0
 
 
 @allocating_kernel
-def trace_gates(net, of_cell, along, width, axis, most, table):
+def trace_gates(net, row_of, gate_of, along, axis, width, most, table):
     """The gates that a route goes through: rows (k, CROSSING), for a body that heeds gates up to ``most``
     [m] wide. table (m, POINT): the route."""
     found = np.empty((64, at.CROSSING))
@@ -55,7 +55,8 @@ def trace_gates(net, of_cell, along, width, axis, most, table):
             px, py = ax + dx * j / steps, ay + dy * j / steps
             k = walk(net, k, x, y, px, py, 0.0, True)[1]
             x, y = px, py
-            gate = of_cell[k]
+            here = row_of[k]
+            gate = gate_of[here] if here >= 0 else -1
             if gate >= 0 and width[gate] >= most:
                 gate = -1
             last = i == table.shape[0] - 1 and j == steps
@@ -63,7 +64,7 @@ def trace_gates(net, of_cell, along, width, axis, most, table):
             if inside >= 0 and (gate != inside or last):
                 row = found[count]
                 row[at.GATE], row[at.LEFT_OUT] = inside, left
-                way = along[k] - along[first] if gate == inside else 0.0
+                way = along[here] - along[first] if gate == inside else 0.0
                 if abs(way) < _LONG:
                     way = axis[first, 0] * (x - row[at.IN_X]) + axis[first, 1] * (y - row[at.IN_Y])
                 row[at.SIGN] = 1.0 if way >= 0.0 else -1.0
@@ -72,11 +73,11 @@ def trace_gates(net, of_cell, along, width, axis, most, table):
                 if count == found.shape[0]:
                     return found
             if gate >= 0 and inside < 0 and not last:
-                inside, first = gate, k
+                inside, first = gate, here
                 row = found[count]
                 row[at.LEFT_IN], row[at.IN_X], row[at.IN_Y] = left, x, y
-                sense = 1.0 if axis[k, 0] * dx + axis[k, 1] * dy >= 0.0 else -1.0
-                row[at.INTO_X], row[at.INTO_Y] = sense * axis[k, 0], sense * axis[k, 1]
+                sense = 1.0 if axis[here, 0] * dx + axis[here, 1] * dy >= 0.0 else -1.0
+                row[at.INTO_X], row[at.INTO_Y] = sense * axis[here, 0], sense * axis[here, 1]
     return found[:count].copy()
 
 

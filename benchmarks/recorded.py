@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from locomotion.body.traits import by_chance
 from locomotion.recorded.changes import changes, encoded, in_steps
 from locomotion.recorded.foot_planting import planted
 from locomotion.recorded.footfalls import BALL, BEARS, FEET, HEEL, STRIKES, Steps, footing_at
-from locomotion.recorded.individual import by_chance
 from locomotion.recorded.motion_set import load_motions
 from locomotion.recorded.posing import pose_bodies, posed
 from locomotion.recorded.sampling import sample_clips, sample_gait

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 import navmesh
 from locomotion.body.arm_reach import HAND_RADIUS
 from locomotion.body.hand_hold import HAND_POINT
+from locomotion.body.traits import by_hand
 from locomotion.ground.ground import Ground
-from locomotion.recorded.individual import by_hand
 from locomotion.recorded.skeletons import LEVELS
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.hand_holds import HandHold

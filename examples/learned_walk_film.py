@@ -1,6 +1,7 @@
 """Makes the pictures of ``docs/how-it-works/learned-walk.md``: the learned walk above the planned one,
 from the side and from the front, twelve moments of one cycle; how it comes to a stand, is pushed there,
-and sets off; the same views of the learned run above the planned one; and how it begins and ends.
+and sets off; the same views of the learned run above the planned one; how it begins and ends; and eight
+people who walk and run, each in its own way.
 
 python examples/learned_walk_film.py [speed of the walk in m/s] [folder]
 """
@@ -12,6 +13,7 @@ import numpy as np
 from matplotlib.figure import Figure as Sheet
 
 from locomotion.body.person import CONTROL_DT, build_person
+from locomotion.body.traits import by_chance
 from locomotion.gaits.policy.skill import load_policy
 from locomotion.human.human import Human
 from locomotion.training.policies.trial import PolicyTrial
@@ -28,7 +30,9 @@ SECONDS = 6.0
 CHANGE, PUSH = 2.6, 150.0
 """[s] of a change, and [N] for 0.1 s."""
 VIEWS = {"side": np.array([0.3, -3.4, 0.3]), "front": np.array([3.4, 0.0, 0.3])}
+CORNER = np.array([1.6, -2.9, 0.4])
 """Where the camera is, from the pelvis [m]."""
+PEOPLE = 8
 HALF = 50.0  # [m] of the ground
 
 
@@ -92,19 +96,41 @@ def starts_and_stops(speed: float) -> dict[str, np.ndarray]:
     return films
 
 
-def draw(films: dict[str, np.ndarray], away: np.ndarray, file: Path) -> None:
-    """A row of pictures for each of ``films``, seen from ``away`` of the pelvis."""
+def anybody(speed: float) -> np.ndarray:
+    """A pose (people, bodies, 7) of each of some people at this speed, all at the same moment."""
+    poses = []
+    for seed in range(PEOPLE):
+        trial = PolicyTrial(load_policy(), by_chance(seed))
+        trial.asked[0] = speed
+        poses.append(filmed(trial, SECONDS)[-1])
+    return np.array(poses)
+
+
+def draw_people(rows: dict[str, np.ndarray], file: Path) -> None:
+    """A row of pictures for each of ``rows`` of people."""
+    sheet = Sheet(figsize=(16, 3.0 * len(rows)), dpi=75, layout="constrained")
+    for axes, (name, poses) in zip(sheet.subplots(len(rows), PEOPLE), rows.items(), strict=True):
+        for each, pose in zip(axes, poses, strict=True):
+            show_frame(each, seen(pose, CORNER, 0.6, (220, 330)), "")
+        axes[0].set_title(name, fontsize=10, loc="left")
+    sheet.savefig(file)
+
+
+def seen(pose: np.ndarray, away: np.ndarray, width: float, size: tuple[int, int]) -> np.ndarray:
+    """A picture of a person, seen from ``away`` of its pelvis."""
     corners = HALF * np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
     ground, figure = Triangles(corners, np.array([[0, 1, 2], [0, 2, 3]])), Figure.from_model(build_person())
+    pelvis = np.array([*pose[0, :2], 0.9])
+    camera = Camera(pelvis + away, pelvis + np.array([0.0, 0.0, -0.05]), width)
+    return render(ground, [figure.posed(pose)], camera, size)
+
+
+def draw(films: dict[str, np.ndarray], away: np.ndarray, file: Path) -> None:
+    """A row of pictures for each of ``films``, seen from ``away`` of the pelvis."""
     sheet = Sheet(figsize=(18, 2.7 * len(films)), dpi=75, layout="constrained")
     for row, (name, poses) in zip(sheet.subplots(len(films), FRAMES), films.items(), strict=True):
         for axes, k in zip(row, np.linspace(0, len(poses) - 1, FRAMES).round(), strict=True):
-            pose = poses[int(k)]
-            pelvis = np.array([*pose[0, :2], 0.9])
-            camera = Camera(pelvis + away, pelvis + np.array([0.0, 0.0, -0.05]), 0.55)
-            show_frame(
-                axes, render(ground, [figure.posed(pose)], camera, (200, 330)), f"{CONTROL_DT * k:.2f} s"
-            )
+            show_frame(axes, seen(poses[int(k)], away, 0.55, (200, 330)), f"{CONTROL_DT * k:.2f} s")
         row[0].set_title(name, fontsize=10, loc="left")
     sheet.savefig(file)
 
@@ -119,6 +145,8 @@ def main() -> None:
             draw(films, away, folder / f"learned-{gait}-{view}.png")
     draw(changes(speed), VIEWS["side"], folder / "learned-walk-rest.png")
     draw(starts_and_stops(RUN), VIEWS["side"], folder / "learned-run-rest.png")
+    rows = {f"{pace:g} m/s": anybody(pace) for pace in (speed, RUN)}
+    draw_people(rows, folder / "learned-styles.png")
 
 
 if __name__ == "__main__":

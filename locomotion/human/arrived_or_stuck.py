@@ -26,14 +26,14 @@ _CLIMBS_BACK = 6.0  # [m] beside its path, after sliding there, from which a per
 
 def notice(person: Person) -> None:
     """End the path of a person that has arrived, is lost or is stuck."""
-    follower, com = person.follower, person.control[controller.COM]
+    follower = person.follower
     assert follower.path is not None
     if follower.interrupted is not None and follower.remaining < _WALK_ARRIVAL:
         follower.turn_again(person.ticks)
         return
     on_foot = person.status in ("walking", "scrambling")  # a runner overshoots and has to come back
     if on_foot and follower.remaining < _WALK_ARRIVAL:
-        goal = follower.path.goal
+        goal, com = follower.path.goal, person.control[controller.COM]
         distance = math.hypot(goal[0] - com[0], goal[1] - com[1])
         if distance <= ARRIVAL_DISTANCE and float(np.linalg.norm(person.velocity[:2])) <= _STAYS:
             person.end("arrived", Arrived(person.time, person.point, distance))

@@ -73,10 +73,10 @@ class GaitChanges:
     def run_if_due(self) -> None:
         """Change from walking to running, just after a foot came down."""
         person = self._person
-        if person.status not in MOVING or not person.follower.runs or person.follower.pace < 1.0:
-            return
         if person.on_feet.walks_as_learned:
             return  # the planned walk begins the run
+        if person.status not in MOVING or not person.follower.runs or person.follower.pace < 1.0:
+            return
         run_up, arc = person.run_up, person.arc_length
         near = run_up.comes_within(arc, _TOO_NEAR)
         if (near or run_up.balked) and person.go_back():

@@ -187,6 +187,12 @@ class Human(Person):
     def bravery(self, bravery: float | None) -> None:
         self.composition.bravery = checked_bravery(bravery)
 
+    def wear(self, traits: NDArray[np.float64]) -> None:
+        """Differ from others on ways that it goes as learned from end to end: ``traits`` (7,) are a row of
+        `locomotion.body.traits`, its size is left out."""
+        if self.on_feet.learned is not None:
+            self.on_feet.learned.wear(traits)
+
     # --- what it is told
     def reset(self, position: ArrayLike, yaw: float, speed: float = 0.0) -> None:
         """Put the person on the ground point ``position`` (3,) [m], facing ``yaw`` [rad]: standing, or
@@ -221,7 +227,7 @@ class Human(Person):
         edges = [obstacle.arc_length for obstacle in obstacles]
         running = (not self.on_feet.walks or self.on_feet.runs_as_learned) and not self.held
         pace = float(np.linalg.norm(self.velocity[:2]))
-        table = self._table(path, speed, pace, edges, running)
+        table, as_learned = self._table(path, speed, pace, edges, running)
         start, here = table.table[0, :3], self.position
         gap = float(np.linalg.norm(start[:2] - here[:2]))
         if gap > STRAYED or abs(start[2] - here[2]) > STRAYED:
@@ -229,6 +235,8 @@ class Human(Person):
         if not self.on_feet.walks and not running:
             self.put(here, self.yaw, 0.0)
         stands = self.status not in MOVING and self.on_feet.walks
+        if self.on_feet.learned is not None:
+            self.on_feet.learned.show_style(as_learned)
         self.data.qpos[:] = self.pose()  # it sets off from how it has been seen to stand
         self.follower.begin(table, self.ticks, self.on_feet.slowing > 0.0)
         self.follower.starts = self.ticks + round(hesitates / CONTROL_DT) if stands else 0
@@ -244,17 +252,19 @@ class Human(Person):
 
     def _table(
         self, path: ArrayLike, speed: float, pace: float, edges: Sequence[float], running: bool
-    ) -> PathTable:
-        """The ``path`` as it will follow it, see `make_path`: as learned if it can be on all of it."""
+    ) -> tuple[PathTable, bool]:
+        """The ``path`` as it will follow it, see `make_path`, and whether that is as learned on all of it."""
         feet = self.on_feet
 
         def make(limits: TrackingLimits) -> PathTable:
             return make_path(path, speed, limits, pace, edges, feet.walk_limits, running)
 
         if feet.learned is None or edges or not feet.walks:
-            return make(feet.limits)
+            return make(feet.limits), False
         table = make(feet.learned_limits)
-        return table if feet.learned.holds_along(table, self.simulation) else make(feet.limits)
+        if feet.learned.holds_along(table, self.simulation):
+            return table, True
+        return make(feet.limits), False
 
     def arrive(self) -> None:
         """Take its present position as its goal."""

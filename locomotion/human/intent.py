@@ -11,7 +11,6 @@ from locomotion.gaits.limits import PERSON_RULES
 from locomotion.gaits.walk.steps import TURN_RATE
 from locomotion.paths import table as path_table
 from locomotion.paths.follower import PathFollower
-from locomotion.paths.gait_plan import COME_TO_REST
 from locomotion.paths.table import TrackingLimits
 from surefoot.kernels import kernel
 
@@ -66,7 +65,7 @@ def course_on_way(
         pace=follower.pace,
         aside=aside and not goes_back,
         whole=path.length <= far and not goes_back,
-        stops=COME_TO_REST if walks else COME_TO_REST + (speed * speed) / (2.0 * limits.slowing),
+        stops=limits.rest if walks else limits.rest + (speed * speed) / (2.0 * limits.slowing),
         turns=turns,
     )
 

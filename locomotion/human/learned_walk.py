@@ -11,13 +11,13 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.body.person import CONTROL_DT, PersonIndex
+from locomotion.body.person import PersonIndex
 from locomotion.gaits.policy import layout as at
-from locomotion.gaits.policy.kernel import Parts, decide_tick, feel, new_memory
-from locomotion.gaits.policy.law import RUNS_FROM
-from locomotion.gaits.policy.level_ground import floor_at, is_level, is_level_around
+from locomotion.gaits.policy.kernel import Parts, feel, new_memory
+from locomotion.gaits.policy.level_ground import is_level, is_level_around
 from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.gaits.policy.stand import stand_still
+from locomotion.gaits.policy.style import style_of
 from locomotion.gaits.run.controller import observe
 from locomotion.gaits.run.layout import COM_VELOCITY, FEET, PLANTED
 from locomotion.gaits.run.layout import HEADING as RUN_HEADING
@@ -25,10 +25,7 @@ from locomotion.gaits.run.layout import STANCE as RUN_STANCE
 from locomotion.gaits.run.layout import TURN_RATE as RUN_TURN_RATE
 from locomotion.gaits.walk.controller import observe_walk
 from locomotion.gaits.walk.layout import (
-    CLOCK,
-    DOUBLE,
     PHASE,
-    SINGLE,
     STANDING,
     WALK_HEADING,
     WALK_SPEED,
@@ -39,18 +36,24 @@ from locomotion.gaits.walk.layout import (
     new_walk,
     wrap,
 )
+from locomotion.human.learned_tick import (
+    ACTIVE,
+    MAY_RUN,
+    MEMORY_SIZE,
+    MOST_TURN,
+    OWN_STYLE,
+    SLOWEST,
+    TICKS,
+    decide_and_walk_on,
+    walk_on,
+)
 from locomotion.human.simulation import Simulation
 from locomotion.paths import table as path
-from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
+from locomotion.paths.command import HEADING_ASKED, SPEED_ASKED
 from locomotion.paths.follower import PathFollower
 
-__all__ = [
-    "ACTIVE", "MEMORY_SIZE", "MOST_TURN", "RUN_STOPS", "SLOWEST", "TICKS", "LearnedWalk", "memory_of",
-    "memory_of_run",
-]  # fmt: skip
+__all__ = ["RUN_STOPS", "LearnedWalk", "memory_of", "memory_of_run"]
 
-SLOWEST = 0.3
-"""[m/s] that it walks at least; who is asked for less than half of it comes to rest."""
 _SEES, _LEAVES = 2.6, 1.6
 # [m] of level ground ahead with which it takes over, and without which it gives back
 _BEHIND = 0.5  # [m] behind it that have to be level, too: a foot is still there
@@ -61,16 +64,6 @@ RUN_STOPS = 1.2
 _REACTS = 0.3  # [s] before that
 _RUN_SEES = 4.0  # [m] of level ground more, for it to run
 _ROOM = 0.8  # [m] more to where a run begins
-MOST_TURN = 1.2
-"""[rad/s] that it turns at most."""
-_SIDEWAYS = 1.2  # [m/s^2] in a bend at most
-_EAGERNESS = 2.0  # [1/s] of turning towards the heading asked for
-_FACES = 0.1  # [rad] off that heading up to which a person at rest does not turn
-
-ACTIVE = at.STATE_SIZE + at.FELT_SIZE
-TICKS, MAY_RUN, MEMORY_SIZE = ACTIVE + 1, ACTIVE + 2, ACTIVE + 3
-"""The memory of a `LearnedWalk`: the policy's memory, what it feels, whether it moves the person, for how
-many ticks, and whether it may run here."""
 
 
 def memory_of_run(run: NDArray[np.float64], qvel: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -107,23 +100,33 @@ class LearnedWalk:
         self.skill = skill
         self.memory = np.zeros(MEMORY_SIZE)
         self._state, self._felt = self.memory[: at.STATE_SIZE], self.memory[at.STATE_SIZE : ACTIVE]
-        self._asked = np.zeros(2)
         self._parts: tuple[mujoco.MjModel, Parts] | None = None
 
     @property
     def active(self) -> bool:
         """Whether it moves the person."""
-        return bool(self.memory[ACTIVE] > 0.0)
+        return self.memory.item(ACTIVE) > 0.0
 
     @property
     def runs(self) -> bool:
         """Whether it runs, or has not slowed down from a run yet."""
-        return self.active and bool(self._state[at.FAST] > 0.0)
+        return self.active and self._state.item(at.FAST) > 0.0
 
     @property
     def may_run(self) -> bool:
         """Whether it is to run where the path says so."""
-        return bool(self.memory[MAY_RUN] > 0.0)
+        return self.memory.item(MAY_RUN) > 0.0
+
+    def wear(self, traits: NDArray[np.float64]) -> None:
+        """Move in the style of these ``traits`` (7,) from now on (`locomotion.body.traits`)."""
+        shown = np.array_equal(self._state[at.STYLE], self.memory[OWN_STYLE])
+        self.memory[OWN_STYLE] = style_of(traits)
+        self.show_style(shown)
+
+    def show_style(self, shows: bool) -> None:
+        """Move in its own style from now on, or as the usual person: planned gaits take over from that more
+        surely."""
+        self._state[at.STYLE] = self.memory[OWN_STYLE] if shows else 0.0
 
     def leave(self) -> None:
         """Something else moves the person now."""
@@ -131,12 +134,12 @@ class LearnedWalk:
 
     def drops(self, data: mujoco.MjData) -> bool:
         """Whether the ground has gone from under the person that it moves: it has not learned to land."""
-        return self.active and bool(data.qvel[2] < -_DROPS)
+        return self.active and data.qvel.item(2) < -_DROPS
 
     @property
     def speed(self) -> float:
         """[m/s] of its reference."""
-        return float(self._state[at.TOLD])
+        return self._state.item(at.TOLD)
 
     def suits(
         self,
@@ -197,11 +200,11 @@ class LearnedWalk:
         if not is_level_around(body.lookup, *position.tolist()):
             return
         parts = self._feet(body.index, body.data)
-        stand_still(body.model, body.data, parts, self.skill.motion, position, yaw, self._felt)
+        style = self._state[at.STYLE]
+        stand_still(body.model, body.data, parts, self.skill.motion, position, yaw, self._felt, style)
         observe(body.index, body.model, body.data, body.control, fresh=True)
         body.control[PLANTED] = body.control[FEET]
-        self._state[:] = new_memory(yaw)
-        self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
+        self._begin(new_memory(yaw))
 
     def can_end_run(self, body: Simulation) -> bool:
         """Whether the ground is level where a running person is, and where it would come to rest."""
@@ -214,16 +217,23 @@ class LearnedWalk:
 
     def end_run(self, body: Simulation) -> None:
         """Move a person from now on that runs, and has just put a foot down."""
-        self._state[:] = memory_of_run(body.control, body.data.qvel)
-        self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
+        self._begin(memory_of_run(body.control, body.data.qvel))
         feel(self._feet(body.index, body.data), body.data, self._felt)
 
     def take_over(self, body: Simulation, walk: NDArray) -> None:
         """Move a person from now on that walks as planned and has just put a foot down, or stands."""
         data = body.data
-        self._state[:] = memory_of(walk, data.qvel)
-        self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
+        self._begin(memory_of(walk, data.qvel))
         feel(self._feet(body.index, data), data, self._felt)
+
+    def _begin(self, memory: NDArray[np.float64]) -> None:
+        """Move a person from now on, in its style, as of this ``memory`` (STATE_SIZE,) of a usual one."""
+        style = self._state[at.STYLE].copy()
+        self._state[:] = memory
+        self._state[at.STYLE] = style
+        if memory[at.RUNNING] == 0.0 and style[at.RIGHT_FIRST - at.STYLE.start] > 0.0:
+            self._state[at.PHASE] = (memory[at.PHASE] + 0.5) % 1.0
+        self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
 
     def give_back(self, body: Simulation, walk: NDArray, fastest: float) -> None:
         """Let the planned walk go on, at ``fastest`` [m/s] at most, just after a foot came down, or in a
@@ -240,43 +250,16 @@ class LearnedWalk:
 
     def tick(self, ground: tuple[NDArray, ...], command: NDArray, data: mujoco.MjData, walk: NDArray) -> None:
         """One control tick: write the targets ``data.ctrl``, and what others read into ``walk``."""
-        state = self._state
-        before = state[at.PHASE]
-        if self.memory[TICKS] % at.TICKS_PER_DECISION == 0.0:
-            self._ask(command)
-            lowest = self._felt[at.SOLES].reshape(6, 3)[:, 2].min()
-            floor = floor_at(ground, data.qpos[0], data.qpos[1], lowest)
-            state[at.FLOOR] = floor if floor == floor else lowest
-            decide_tick(*self.skill.tables, state, self._asked, self._felt, data.qpos, data.qvel, data.ctrl)
-        self.memory[TICKS] += 1.0
-        landed = math.floor(2.0 * state[at.PHASE]) != math.floor(2.0 * before)
-        walk[WALK_TICKS] += 1.0
-        walk[PHASE], walk[CLOCK] = (DOUBLE, 0.0) if landed else (SINGLE, walk[CLOCK] + CONTROL_DT)
-        if state[at.RUNNING] == 0.0:
-            walk[PHASE], walk[CLOCK] = STANDING, 0.0
-        elif landed:
-            walk[WALK_STANCE] = -1.0 if state[at.PHASE] < 0.5 else 1.0
-            walk[WALK_STEPS] += 1.0
-        walk[WALK_HEADING], walk[WALK_SPEED] = state[at.HEADING], state[at.TOLD]
-        walk[WALK_TURN_RATE] = state[at.TURN_RATE]
-
-    def _ask(self, command: NDArray) -> None:
-        """What ``command`` asks of a walk that makes no steps aside."""
-        speed = float(command[SPEED_ASKED])
-        if not self.may_run:
-            speed = min(speed, RUNS_FROM)
-        speed = max(speed, SLOWEST) if speed > 0.5 * SLOWEST else 0.0
-        aside = math.atan2(command[SIDEWAYS_ASKED], speed) if speed > 0.0 else 0.0
-        off = wrap(command[HEADING_ASKED] + aside - self._state[at.HEADING])
-        most = min(MOST_TURN, _SIDEWAYS / max(speed, self.speed, SLOWEST))
-        turn = min(max(_EAGERNESS * off, -most), most)
-        if speed == 0.0 and abs(off) < _FACES:
-            turn = 0.0
-        self._asked[at.ASKED_SPEED], self._asked[at.ASKED_TURN] = speed, turn
+        if self.memory.item(TICKS) % at.TICKS_PER_DECISION == 0.0:
+            decide_and_walk_on(
+                ground, *self.skill.tables, self.memory, command, walk, data.qpos, data.qvel, data.ctrl
+            )
+        else:
+            walk_on(self.memory, command, walk, data.qpos, data.ctrl)
 
     def observe(self, index: PersonIndex, data: mujoco.MjData) -> None:
         """After the physics."""
-        if self.memory[TICKS] % at.TICKS_PER_DECISION == 0.0:
+        if self.memory.item(TICKS) % at.TICKS_PER_DECISION == 0.0:
             feel(self._feet(index, data), data, self._felt)
 
     def _feet(self, index: PersonIndex, data: mujoco.MjData) -> Parts:

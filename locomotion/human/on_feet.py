@@ -56,10 +56,10 @@ from locomotion.gaits.walk.layout import (
 from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, WalkSkill
 from locomotion.gaits.walk.steps import TURN_TIME
 from locomotion.gaits.walk.strain import FORESEEN, STRAINED, USUAL, note_strain, slope_ahead
-from locomotion.human.gaze import look_ahead
 from locomotion.human.intent import TURN_FIRST
 from locomotion.human.landing import Landing
-from locomotion.human.learned_walk import MOST_TURN, LearnedWalk
+from locomotion.human.learned_tick import MOST_TURN
+from locomotion.human.learned_walk import LearnedWalk
 from locomotion.human.residual import Residual
 from locomotion.human.simulation import Simulation
 from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
@@ -75,7 +75,7 @@ _HASTE = 1.3  # [m/s] asked for above the last step's speed at most, lest it tri
 _FAST, _FAST_HASTE = 3.7, 0.8  # [m/s] from the first speed on, only this much above
 _CHANGED = 4.0  # steps after which a change of gait is complete
 _HELD_UP = 12.0  # steps after which a pushed person that has braked need not come to rest
-_GENTLY = 1.2  # [m/s^2] of slowing down as learned on its way
+_GENTLY, _RESTS = 1.2, 1.0  # [m/s^2] of slowing down as learned on its way, and [m] walked at its end
 _NOTHING = np.zeros(0)
 _UPRIGHT = 0.8  # [m] of the centre of mass over the lower foot of one that stands
 _STILL = 0.03  # [m/s] of the centre of mass at rest
@@ -111,7 +111,7 @@ def _made_of(
     return _Made(
         speed_up.run_tables(run), slow_down.run_tables(run), brake.run_tables(run),
         slow_down.walk_tables(walk), brake.walk_tables(walk), runs,
-        replace(runs, deceleration=_GENTLY, slowing=_GENTLY), walks,
+        replace(runs, deceleration=_GENTLY, slowing=_GENTLY, rest=_RESTS), walks,
     )  # fmt: skip
 
 
@@ -184,12 +184,12 @@ class OnFeet:
     @property
     def rises(self) -> bool:
         """Whether it starts to walk from a crouch."""
-        return bool(self.walks and self.walk[WALK_TICKS] < RISING)
+        return self.walks and self.walk.item(WALK_TICKS) < RISING
 
     @property
     def on_uneven_ground(self) -> bool:
         """Whether it walks on steep ground or stairs."""
-        return bool(self.walks and self.walk[UNEVEN] > 0.0)
+        return self.walks and self.walk.item(UNEVEN) > 0.0
 
     def strained_soon(self, command: NDArray[np.float64]) -> bool:
         """Whether it walks on steep ground or stairs and may have to rehearse one of its next steps."""
@@ -200,7 +200,7 @@ class OnFeet:
     @property
     def begins_step(self) -> bool:
         """Whether a foot has just come down."""
-        return self.walks and bool(self.walk[PHASE] == DOUBLE and self.walk[CLOCK] == 0.0)
+        return self.walks and self.walk.item(PHASE) == DOUBLE and self.walk.item(CLOCK) == 0.0
 
     @property
     def begins_strained_step(self) -> bool:
@@ -220,7 +220,7 @@ class OnFeet:
 
     def stands_still(self, state: NDArray[np.float64]) -> bool:
         """Whether it stands still, if only in a crouch."""
-        if not (self.walks and self.walk[PHASE] == STANDING and self.walk[CLOCK] == 0.0):
+        if not (self.walks and self.walk.item(PHASE) == STANDING and self.walk.item(CLOCK) == 0.0):
             return False
         x, y, z = state[controller.COM_VELOCITY].tolist()
         return -_STILL < x < _STILL and -_STILL < y < _STILL and -_STILL < z < _STILL
@@ -248,10 +248,11 @@ class OnFeet:
         moving: whether to continue along the path. planned: speed [m/s] of this step of a run-up, 0 outside
         of one.
         """
-        x, y = state[controller.COM][:2]
-        walks = self.walks and not self.runs_as_learned
+        x, y, _ = state[controller.COM].tolist()
+        on_walk = self.walks
+        walks = on_walk and not self.runs_as_learned
         follower.track(_WALK_GAINS if walks else RUN_GAINS, x, y, self.speed, tick, command)
-        if self.walks:
+        if on_walk:
             most = self.walk_skill.speed if follower.walks_fast else self.walk_limits.calm
             if self.learned is not None and self.learned.may_run and follower.runs:
                 most = self.limits.speeds[1]
@@ -276,20 +277,21 @@ class OnFeet:
 
     def _steer_walk(self, state: NDArray, moving: bool, pace: float, most: float, command: NDArray) -> None:
         """``pace``: share of the wanted speed; ``most``: upper limit [m/s]."""
-        heading = self.walk[WALK_HEADING]
-        if self.walk[WALK_STEPS] < 0.0:
+        walk = self.walk
+        heading = walk.item(WALK_HEADING)
+        if walk.item(WALK_STEPS) < 0.0:
             command[:] = heading, STEADYING_SPEED, 0.0, 0.0
             return
-        off = command[HEADING_ASKED] - heading
-        if self.walk[SUDDEN] == 0.0:
-            off -= TURN_TIME * self.walk[WALK_TURN_RATE]  # it is already turning in a bend
+        off = command.item(HEADING_ASKED) - heading
+        if walk.item(SUDDEN) == 0.0:
+            off -= TURN_TIME * walk.item(WALK_TURN_RATE)  # it is already turning in a bend
         if not moving or abs(math.remainder(off, 2.0 * math.pi)) > TURN_FIRST:
             command[SPEED_ASKED] = command[SIDEWAYS_ASKED] = 0.0
             if np.hypot(*state[controller.COM_VELOCITY][:2]) > TURNING_SPEED:
                 command[HEADING_ASKED] = heading
         if self.brakes:
             pace = 0.0  # despite new commands: it has rehearsed this stop
-        command[SPEED_ASKED] = pace * min(command[SPEED_ASKED], most)
+        command[SPEED_ASKED] = pace * min(command.item(SPEED_ASKED), most)
         if pace == 0.0:  # waiting: a person stepping in place drifts into those ahead
             command[HEADING_ASKED], command[SIDEWAYS_ASKED] = heading, 0.0
 
@@ -299,7 +301,7 @@ class OnFeet:
         """Where a foot has just come down, or in a stand: go on as learned, or as planned. ``moving``:
         whether to continue along the path; ``free``: whether no obstacle has to be cleared on it."""
         learned, walk = self.learned, self.walk
-        if learned is None or not self.walks or walk[PHASE] == SINGLE or walk[CLOCK] > 0.0:
+        if learned is None or not self.walks or walk.item(PHASE) == SINGLE or walk.item(CLOCK) > 0.0:
             return
         ready = walk[WALK_STEPS] >= _CHANGED
         if walk[PHASE] == STANDING:  # out of a crouch it straightens up, but the planned walk sets off
@@ -322,7 +324,6 @@ class OnFeet:
         """Control: write the PD targets into ``data.ctrl``."""
         if self.learned is not None and self.walks_as_learned:
             self.learned.tick(lookup, command, data, self.walk)
-            look_ahead(float(self.walk[WALK_HEADING]), command, data)
             self.speed = self.learned.speed
         elif self.walks:
             tables = self._walk_tables()

@@ -28,6 +28,7 @@ from locomotion.skills.interface import skill_for
 __all__ = ["check_person"]
 
 _SPEED, _TURNS, _TIME = (-100.0, 100.0), (-1e4, 1e4), (0.0, FARTHEST)
+_STYLE = (-2.0, 2.0)
 _SLOWER = 0.05  # of a step: a skill may hold back its first tick, which takes no more
 _UNIT = 1e-2  # by which the length of a quaternion may be off 1
 _MOST_REHEARSED = 100_000  # ticks, which are simulated again when it is restored
@@ -175,6 +176,8 @@ _LEARNED = Slots(
         (policy.STARTED, FLAG),
         (policy.TOLD, _SPEED),
         (policy.TRIM, _SPEED),
+        *((k, _STYLE) for k in range(policy.STYLE.start, policy.STYLE.stop)),
+        *((k, _STYLE) for k in range(learned_walk.OWN_STYLE.start, learned_walk.OWN_STYLE.stop)),
         (learned_walk.ACTIVE, FLAG),
         (learned_walk.TICKS, COUNT),
     ],

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.models import person_on
+from locomotion.body.physics import physics_size
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run import controller
 from locomotion.ground.ground import Ground, plane_lookup
@@ -26,6 +27,7 @@ class Simulation:
       current
         after a tick; derived values (contacts, places of bodies) may be outdated.
       index: addresses of the person's parts in the model.
+      physics_size: count of numbers in a saved state of ``data``.
       control: memory and observations of the running controller (fields: `locomotion.gaits.run.layout`), also
         while the person walks.
     """
@@ -39,6 +41,7 @@ class Simulation:
         self.ground = ground
         self.model, self.index = person_on(ground)
         self.data = mujoco.MjData(self.model)
+        self.physics_size = physics_size(self.model)
         self.lookup = plane_lookup() if ground is None else ground.lookup
 
     @property

@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.body.physics import physics_size, restore_physics, write_physics
+from locomotion.body.physics import restore_physics, write_physics
 from locomotion.body_events import Event
 from locomotion.human.simulation import Simulation
 from locomotion.paths.smoothing import ObstacleAhead
@@ -119,6 +119,7 @@ _FIELDS = (
     _Field("ended_at", "", "ended_at"),
     _Field("habit", "", "habit"),
 )
+_SKILL = [field.name for field in _FIELDS].index("skill")  # the only one that changes in place
 _VALUES = operator.attrgetter(
     *(f"{field.part}.{field.attribute}" if field.part else field.attribute for field in _FIELDS)
 )
@@ -133,10 +134,12 @@ def save(person: _Person) -> HumanState:
     """Everything that ``person`` needs to continue from here."""
     body, arrays = person.simulation, _ARRAYS(person)
     end = sum(map(len, arrays))
-    numbers = np.empty(end + physics_size(body.model))
+    numbers = np.empty(end + body.physics_size)
     np.concatenate(arrays, out=numbers[:end])
     write_physics(body.model, body.data, numbers[end:])
-    values = [value.copy() if isinstance(value, np.ndarray) else value for value in _VALUES(person)]
+    values = list(_VALUES(person))
+    if values[_SKILL] is not None:
+        values[_SKILL] = values[_SKILL].copy()
     return HumanState._make((numbers, *values, tuple(person.events), (0, 0)))
 
 

@@ -24,7 +24,6 @@ from locomotion.paths.table import (
 )
 
 __all__ = [
-    "COME_TO_REST",
     "LANDED",
     "RUN_UP",
     "SET_OFF",
@@ -41,8 +40,6 @@ SET_OFF = 7.7
 """[m] before an obstacle at which a walking body turns to it, to gain speed from there."""
 LANDED = 5.0
 """[m] behind an obstacle's edge that are run, unless it has to stop sooner."""
-COME_TO_REST = 2.0
-"""[m] at the end that are walked."""
 SLOWS_WITHIN = 1.0
 """[m] that it may run on beyond a point to slow down or brake, until it finds how."""
 _OFF_EDGE = 2.0  # [m] behind an obstacle's edge that are run in any case
@@ -80,12 +77,13 @@ def plan_gaits(
     slowing = _length_of_slowing(fastest, limits, walk)
     slowest = 0.5 * (walk.speeds[1] + limits.speeds[0])  # slower is nearer to a walk
     hard = _too_hard(table, limits)
-    runs = _where_to_run(hard, at, speed >= slowest, edges, running, slowing)
+    runs = _where_to_run(hard, at, speed >= slowest, edges, running, slowing, limits.rest)
     entering = present_speed if running else 0.0
-    brakes = _where_to_brake(hard, at, edges, runs, fastest, entering, walk.calm)
+    surely = max(limits.slowing, _SURELY)
+    brakes = _where_to_brake(hard, at, edges, runs, fastest, entering, walk.calm, surely)
     last_run = np.maximum.accumulate(np.where(runs, at, -math.inf))
     stood = np.maximum.accumulate(np.where(brakes, at, -math.inf)) > last_run
-    near = (at - last_run <= slowing) & ~stood & (at <= at[-1] - COME_TO_REST)  # runs, or slows down
+    near = (at - last_run <= slowing) & ~stood & (at <= at[-1] - limits.rest)  # runs, or slows down
     fast = (speed < slowest) & _can_walk_fast(table, at, runs, walk.foresight) & ~near
     if present_speed < walk.calm + _ALREADY:  # keeps a person with ever-changing orders slow
         fast &= at >= _BEGINS
@@ -120,10 +118,11 @@ def _where_to_run(
     edges: NDArray[np.float64],
     running: bool,
     slowing: float,
+    rest: float,
 ) -> NDArray[np.bool_]:
     """(n,) bool: where the body runs, if it is ``worth`` it; it needs ``slowing`` [m] afterwards to slow
-    down."""
-    runs = _can_run(hard, at, slowing) & (at <= at[-1] - COME_TO_REST - slowing) & worth
+    down, and ``rest`` [m] at the end to come to rest."""
+    runs = _can_run(hard, at, slowing) & (at <= at[-1] - rest - slowing) & worth
     for begin, end in _stretches(runs):
         if at[end - 1] - at[begin] < _WORTH_IT and not (running and begin == 0):
             runs[begin:end] = False
@@ -145,10 +144,11 @@ def _where_to_brake(
     fastest: float,
     entering: float,
     calm: float,
+    surely: float,
 ) -> NDArray[np.bool_]:
     """(n,) bool: where a body that runs at up to ``fastest`` [m/s], and enters the path at ``entering``,
     brakes to a stop, because it cannot slow down to a walk at ``calm`` before what cannot be run or the
-    end; changes ``runs``, where it runs before that, in place.
+    end, with ``surely`` [m/s^2] at least; changes ``runs``, where it runs before that, in place.
     """
     brakes = np.zeros(len(at), dtype=bool)
     stretches = _stretches(runs)
@@ -161,7 +161,7 @@ def _where_to_brake(
         earliest = max(at[begin], passed.max(initial=-math.inf) + _OFF_EDGE)
         ahead = at[hard & (at >= max(at[begin], passed.max(initial=-math.inf)))]
         stop = float(ahead[0]) if len(ahead) else float(at[-1])
-        if stop - left >= (speed**2 - calm**2) / (2.0 * _SURELY):
+        if stop - left >= (speed**2 - calm**2) / (2.0 * surely):
             continue
         first = max(stop - braking_length(speed) - SLOWS_WITHIN, earliest)
         runs[(at >= at[begin]) & (at < first)] = True

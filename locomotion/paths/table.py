@@ -45,7 +45,7 @@ class TrackingLimits:
       acceleration, deceleration: [m/s^2] of the planned speed along the path.
       uphill, downhill: [m/s per unit of slope] subtracted from the wanted speed on a slope.
       sharpest: curvature [1/m] and steepest: slope [rise over run] above which this gait is not used.
-      slowing: [m/s^2] of slowing from a run to a walk.
+      slowing: [m/s^2] of slowing from a run to a walk. rest: [m] at the end that are walked.
       foresight: [m] before a slope at which it already moves as slowly as on it.
       usual: [m/s] walking speed at most, unless a faster walk is asked for on straight, level ground away
       from
@@ -63,6 +63,7 @@ class TrackingLimits:
     sharpest: float = math.inf
     steepest: float = math.inf
     slowing: float = 0.6
+    rest: float = 2.0
     foresight: float = 0.0
     usual: float = math.inf
     tight: tuple[float, float] = (0.0, 0.0)

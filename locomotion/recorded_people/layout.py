@@ -3,8 +3,8 @@
 import numpy as np
 
 from locomotion.body.person import JOINT_NAMES
-from locomotion.recorded.individual import PHASE as TRAIT_PHASE
-from locomotion.recorded.individual import TRAITS as _TRAITS
+from locomotion.body.traits import PHASE as TRAIT_PHASE
+from locomotion.body.traits import TRAITS as _TRAITS
 
 __all__ = ["BEFORE", "OFFSETS", "PLACE", "RATES", "ROW", "STEPS", "TRAITS", "new_row"]
 
@@ -40,7 +40,7 @@ HASTE = 20
 FADE_BEGUN, FADE_SECONDS = 21, 22
 """[s] of its own time when its motion last changed from one source to another, and how long that shows."""
 TRAITS = slice(23, 23 + len(_TRAITS))
-"""What it differs from others in (`locomotion.recorded.individual`)."""
+"""What it differs from others in (`locomotion.body.traits`)."""
 STEPS = slice(TRAITS.stop, TRAITS.stop + 2 * 3 * 6)
 """(2, 3, 6) of the right and the left foot: where it stands, is on its way to, and is to be put down
 (`locomotion.recorded_people.stepping`): x, y, z [m], heading, slopes ahead and to the left [rad]."""

@@ -14,9 +14,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from locomotion.body.traits import SIZE
 from locomotion.body_events import Cleared, Event, GotStuck, LostGround, TookOff
 from locomotion.crowd import Crowd, NoRoute, Walker
-from locomotion.recorded.individual import SIZE
 from locomotion.recorded.motion_set import MotionSet
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.clearing import RecordedSkill

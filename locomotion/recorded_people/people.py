@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import navmesh
+from locomotion.body.traits import SIZE, by_chance
 from locomotion.crowd import Crowd, Walker
 from locomotion.crowd import layout as body
 from locomotion.data import POSTURES
@@ -28,7 +29,6 @@ from locomotion.postures.playback import pose_at
 from locomotion.postures.posture_file import load_postures
 from locomotion.postures.posture_graph import PostureGraph
 from locomotion.recorded.footfalls import BEARS, FEET, footing_at, sole_centres
-from locomotion.recorded.individual import SIZE, by_chance
 from locomotion.recorded.motion_set import MotionSet, load_motions
 from locomotion.recorded.posing import posed
 from locomotion.recorded.skeletons import LEVELS, skeleton

@@ -251,7 +251,7 @@ class RecordedPerson:
         return x, y, z
 
     def set_traits(self, traits: NDArray[np.float64]) -> None:
-        """Move in another style: a row of `locomotion.recorded.individual.TRAITS` (7,)."""
+        """Move in another style: a row of `locomotion.body.traits.TRAITS` (7,)."""
         self.row[at.TRAITS] = traits
 
     def change(self, what: Callable[[], object]) -> None:

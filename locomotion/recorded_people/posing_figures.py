@@ -9,10 +9,11 @@ import math
 
 import numpy as np
 
+from locomotion.body.traits import SIZE
 from locomotion.crowd import layout as body
 from locomotion.postures.step_order import AT_REST, gait_for
 from locomotion.recorded.foot_planting import ROOM, plant
-from locomotion.recorded.individual import SIZE, style
+from locomotion.recorded.individual import style
 from locomotion.recorded.posing import pose_body
 from locomotion.recorded.sampling import read_cycle
 from locomotion.recorded.skeletons import FULL, LOW, MEDIUM

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 
+from locomotion.body.traits import TRAITS
 from locomotion.errors import LocomotionError
 from locomotion.postures.playback import Playback
 from locomotion.postures.posture_graph import PostureGraph
-from locomotion.recorded.individual import TRAITS
 from locomotion.recorded.skeletons import LEVELS
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.people import BODY_TICKS

@@ -15,12 +15,12 @@ import math
 
 import numpy as np
 
+from locomotion.body.traits import PACE, PHASE, SIZE, WIDTH
 from locomotion.crowd import layout as body
 from locomotion.ground.collider.layout import NX, NZ
 from locomotion.ground.ground import height_below
 from locomotion.postures.step_order import AT_REST
 from locomotion.recorded.footfalls import AHEAD, BEARS, HALF_SOLE, LEFT, TURNED, read_footing
-from locomotion.recorded.individual import PACE, PHASE, SIZE, WIDTH
 from locomotion.recorded.sampling import stride_at
 from locomotion.recorded.skeletons import FULL, LOW
 from locomotion.recorded_people import layout as at

@@ -14,6 +14,7 @@ import numpy as np
 from locomotion import MOVING, PERSON_RULES, Ground, Human, HumanState, LocomotionError, load_run_skill
 from locomotion.avoidance.yielding import SPACING, Course
 from locomotion.body.person import CONTROL_DT
+from locomotion.body.traits import by_hand
 from locomotion.body_events import Arrived, GotStuck, MissedGoal, PostureReached, StrayedFromPath
 from locomotion.gaits.brake import load_brake_skill
 from locomotion.gaits.policy.skill import PolicySkill, load_policy
@@ -28,7 +29,6 @@ from locomotion.human.saved_state_check import check_person
 from locomotion.human.simulation import movements
 from locomotion.postures.step_order import AT_REST
 from locomotion.preconditions.precondition import load_preconditions
-from locomotion.recorded.individual import by_hand
 from locomotion.recorded_people.fading import fade_from, faded, rates
 from locomotion.recorded_people.nodes import can_hold, checked_node
 from locomotion.recorded_people.people import person_postures
@@ -255,7 +255,7 @@ class HumanDriver(Driver):
     """A person. ``before``: its joints (46,) as they were when `People.remember` was called, and for how long
     [s] it had stood then; or None.
     ``hesitates``: [s] after which it sets out from a stand: people told the same do not step as one.
-    ``style``: traits to be worn when it plays recorded motion."""
+    ``style``: its traits, those left out are the usual ones."""
 
     tries_other_ways = plans_in_slices = True
 
@@ -374,10 +374,15 @@ class HumanDriver(Driver):
 
     def set_style(self, traits: Mapping[str, float]) -> None:
         try:
-            by_hand(None, **traits)
+            row = by_hand(None, **{**self.style, **traits})
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
         self.style |= traits
+        self.human.wear(row)
+
+    @property
+    def traits(self) -> Mapping[str, float]:
+        return self.style
 
     def odds(self, obstacle: int | str) -> float:
         try:

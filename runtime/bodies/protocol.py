@@ -163,7 +163,7 @@ class Driver(ABC):
 
     @property
     def traits(self) -> Mapping[str, float]:
-        """All of `locomotion.recorded.individual.TRAITS` of one that plays recorded motion; else none."""
+        """All of `locomotion.body.traits.TRAITS` of a person; else none."""
         return {}
 
     @abstractmethod

@@ -8,10 +8,10 @@ import numpy as np
 
 from locomotion import PERSON_RULES, Ground, LocomotionError
 from locomotion.body.models import figure
+from locomotion.body.traits import SIZE, TRAITS, by_hand
 from locomotion.crowd.saved_state_check import check_walker
 from locomotion.human.composition import checked_bravery
 from locomotion.preconditions.precondition import load_preconditions
-from locomotion.recorded.individual import SIZE, TRAITS, by_hand
 from locomotion.recorded.skeletons import LEVELS, level_number
 from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.nodes import can_hold, checked_node

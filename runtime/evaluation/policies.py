@@ -5,7 +5,9 @@ import math
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
+from locomotion.body.traits import by_chance
 from locomotion.gaits.policy.skill import PolicySkill, load_policy
 from locomotion.training.policies.trial import PolicyTrial
 from runtime.evaluation.evaluation import Attempt, Trial
@@ -23,9 +25,9 @@ _STANDING, _ON_THE_SPOT = 0.15, 0.1  # shares of the orders that are to stand, a
 
 
 def walk_policy_trials(trials: int, seed: int) -> list[Trial]:
-    """Six tests of ``trials`` each: from a stand to a speed and on, with a turn; the same with a push of
+    """Seven tests of ``trials`` each: from a stand to a speed and on, with a turn; the same with a push of
     `PUSH` from any side at any moment; a minute of orders to walk, turn, also on the spot, stop and start;
-    and the same three of the run, whose orders are to walk or run.
+    the same three of the run, whose orders are to walk or run; and the last one by people who differ.
     """
     tried: list[Trial] = []
     rng, skill = np.random.default_rng(seed), load_policy()
@@ -40,6 +42,8 @@ def walk_policy_trials(trials: int, seed: int) -> list[Trial]:
         tried.append(partial(_walk, skill, "run", speed, turn, moment))
         tried.append(partial(_walk, skill, f"run, pushed with {PUSH:.0f} N", speed, 0.0, moment, angle))
         tried.append(partial(_script, skill, "run, walk, stop, turn", (SPEEDS[0], RUNS[1]), (seed, k, 1)))
+        own = by_chance(seed * trials + k)
+        tried.append(partial(_script, skill, "the same, anybody", (SPEEDS[0], RUNS[1]), (seed, k, 2), own))
     return tried
 
 
@@ -61,9 +65,15 @@ def _walk(
     return Attempt(test, what, "walks" if held else "fallen", held)
 
 
-def _script(skill: PolicySkill, test: str, speeds: tuple[float, float], seed: tuple[int, ...]) -> Attempt:
+def _script(
+    skill: PolicySkill,
+    test: str,
+    speeds: tuple[float, float],
+    seed: tuple[int, ...],
+    traits: NDArray[np.float64] | None = None,
+) -> Attempt:
     rng = np.random.default_rng(seed)
-    trial, passed, held = PolicyTrial(skill), 0.0, True
+    trial, passed, held = PolicyTrial(skill, traits), 0.0, True
     while held and passed < _SCRIPT:
         kind, speed, turn = rng.random(), rng.uniform(*speeds), rng.uniform(-TURN, TURN)
         if speed > SPEEDS[1]:

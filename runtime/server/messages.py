@@ -173,7 +173,7 @@ class SetDetail(_Request):
 
 
 class SetStyle(_Request):
-    """Let a person differ from others whenever it plays recorded motion; all who joined are told the skeleton
+    """Let a person differ from others; all who joined are told the skeleton
     that it then has."""
 
     type: Literal["style"]

@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike
 from locomotion import MOVING, Ground, Human, LocomotionError
 from locomotion import body_events as bodily
 from locomotion.avoidance.yielding import Course
+from locomotion.body.traits import by_hand
 from locomotion.quadruped import Animal
-from locomotion.recorded.individual import by_hand
 from locomotion.skills.registry import CLEARING, skill_kind
 from runtime.bodies.figure import Figure
 from runtime.bodies.pose import Pose
@@ -79,7 +79,7 @@ class Errand:
 @dataclass(frozen=True)
 class AgentState:
     """What `World.save` keeps of an agent. ``arrival``: how many bodies in the world came before its own;
-    ``style``: the traits that it was told."""
+    ``style``: its traits."""
 
     body: str
     born: float
@@ -347,10 +347,11 @@ class Agent:
         self._take(posture, *self._driver.held_in(posture))
 
     def set_style(self, /, **traits: float) -> None:
-        """Let a person differ from others in these traits whenever it plays recorded motion: its ``phase``,
-        ``pace``, ``width`` of step, swing of the ``arms``, ``lean``, ``head`` and ``size``, as of
-        `locomotion.recorded.individual.TRAITS`; the others stay as they are, at first by chance, and the size
-        1: that of a simulated person, 1.76 m. It keeps all of them while it is simulated. Recordings and
+        """Let a person differ from others in these traits: its ``phase``, ``pace``, ``width`` of step, swing
+        of the ``arms``, ``lean``, ``head`` and ``size``, as of `locomotion.body.traits.TRAITS`; the others
+        stay as they are: at first the usual ones of who is simulated, by chance of who is recorded, and the
+        size 1, that of a simulated person, 1.76 m. A simulated one shows them on level ways without
+        obstacles, within `locomotion.gaits.policy.style.WORN`: beyond that it would fall. Recordings and
         clients take the size that one has when they begin or it appears. Raises `RuntimeInputError` for an
         unknown trait, a value out of its range, another size than 1 for a person whose `detail` is "physics"
         or "auto", and any other body.
@@ -378,14 +379,12 @@ class Agent:
         goes on with what it does. The world calls this."""
         self.notice()
         going, goals = self.moving, self._points_left if self._errand.goals else None
-        traits = self._driver.traits
         driver = self._host.at_level(self, level, at_once)
         self.waits_for_level = driver is None or driver.detail != self._detail
         if driver is None:
             return False
         self.changed = self._host.clock.time
         if driver is not self._driver:
-            self._style |= traits  # those by chance, too
             self.take(driver)
             self._born = self._host.clock.time - driver.time
             if going and goals is not None:
@@ -702,6 +701,8 @@ class Agent:
         self._heed(self._bravery)
         if self._style:
             driver.set_style(self._style)
+        else:
+            self._style |= driver.traits  # by chance
 
     def leave(self) -> None:
         """Have no body any more; `World.remove` calls this."""

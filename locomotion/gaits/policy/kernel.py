@@ -49,6 +49,8 @@ from locomotion.gaits.policy.law import (
     MOST_MISS,
     MOST_TWIST,
     PENDULUM,
+    QUICKENS,
+    QUICKENS_FROM,
     REACH,
     REST_TRIM,
     REST_TRIM_ENDS,
@@ -80,7 +82,9 @@ __all__ = ["Parts", "decide_tick", "feel", "new_memory"]
 _N = len(at.JOINTS)
 _COLUMNS = np.array([JOINT_NAMES.index(name) for name in at.JOINTS])
 _HELD = np.array([k for k, name in enumerate(JOINT_NAMES) if name not in at.JOINTS])
-_TURNS = _COLUMNS[at.HIP_ROTATIONS]
+_TURNS, _SPREADS, _LEANS = _COLUMNS[at.HIP_ROTATIONS], _COLUMNS[at.SPREADING], _COLUMNS[at.LEANING]
+_SWINGS = np.array([k in at.SWINGING for k in range(_N)])
+_BENDS = JOINT_NAMES.index("neck_pitch")
 _SOLE_POINTS = np.array([*at.ANKLE_SOLE, at.TIP])
 _ACTION, _PACE = at.ACTION.start, at.ACTION.stop - 1
 _FORCES = at.FORCES.start
@@ -138,11 +142,15 @@ def _shown_speed(memory):
 
 @kernel
 def _cycles_per_second(speeds, periods, memory):
-    """How fast the cycle goes on, and how fast it usually would."""
+    """How fast the cycle goes on [1/s], how fast it usually would, and how much faster that is than the
+    reference's."""
     i, a = _row(speeds, _shown_speed(memory))
-    usual = 1.0 / ((1.0 - a) * periods[i] + a * periods[i + 1])
+    quicker = 1.0 + memory[at.STEP_RATE]
+    if memory[at.FAST] == 0.0:
+        quicker += QUICKENS * max(memory[at.TOLD] - QUICKENS_FROM, 0.0)
+    usual = quicker / ((1.0 - a) * periods[i] + a * periods[i + 1])
     share = min(max(1.0 + at.RATE_GAIN * memory[_PACE], at.SLOW_RATE), at.FAST_RATE)
-    return share * usual * memory[at.RUNNING], usual
+    return share * usual * memory[at.RUNNING], usual, quicker
 
 
 @kernel
@@ -171,7 +179,7 @@ def _stands(stance, memory, felt, qpos, qvel):
 
 @kernel
 def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
-    pace, _ = _cycles_per_second(speeds, periods, memory)
+    pace, _, _ = _cycles_per_second(speeds, periods, memory)
     before, running = memory[at.PHASE], memory[at.RUNNING] > 0.0
     after = before + at.POLICY_DT * pace
     to_stand = asked[at.ASKED_SPEED] < AT_REST and abs(asked[at.ASKED_TURN]) < FACING
@@ -283,9 +291,9 @@ def _behind(share):
 
 
 @kernel
-def _targets(speeds, periods, joints, rates, memory, ctrl):
+def _targets(speeds, periods, joints, rates, means, memory, ctrl):
     """Targets of all joints until the next decision, into ``ctrl`` (39,)."""
-    pace, usual = _cycles_per_second(speeds, periods, memory)
+    pace, usual, quicker = _cycles_per_second(speeds, periods, memory)
     i, a = 0, 0.0  # the stand
     if memory[at.RUNNING] > 0.0:
         i, a = _row(speeds, _shown_speed(memory))
@@ -297,7 +305,7 @@ def _targets(speeds, periods, joints, rates, memory, ctrl):
     b = x - low
     j = low % samples
     k = (j + 1) % samples
-    lead = at.LEAD * pace / usual
+    lead = at.LEAD * pace / usual * quicker
     w00, w01, w10, w11 = (1.0 - a) * (1.0 - b), (1.0 - a) * b, a * (1.0 - b), a * b
     for n in range(_N):
         angle = (
@@ -309,9 +317,16 @@ def _targets(speeds, periods, joints, rates, memory, ctrl):
         moving = (
             w00 * rates[i, j, n] + w01 * rates[i, k, n] + w10 * rates[i + 1, j, n] + w11 * rates[i + 1, k, n]
         )
-        ctrl[_COLUMNS[n]] = angle + lead * moving + at.SCALE[n] * memory[_ACTION + n]
+        angle += lead * moving
+        if _SWINGS[n]:
+            angle += memory[at.ARM_SWING] * (angle - (1.0 - a) * means[i, n] - a * means[i + 1, n])
+        ctrl[_COLUMNS[n]] = angle + at.SCALE[n] * memory[_ACTION + n]
     for n in range(_HELD.shape[0]):
         ctrl[_HELD[n]] = 0.0
+    for k in range(_SPREADS.shape[0]):
+        ctrl[_SPREADS[k]] += memory[at.SPREAD]
+    ctrl[_LEANS] += memory[at.TRUNK_LEAN]
+    ctrl[_BENDS] = memory[at.HEAD_BEND]
     turn = memory[at.TURN_RATE] * memory[at.RUNNING] / usual
     for side in range(2):
         share = memory[at.PHASE] + (0.5 * at.POLICY_DT + at.LEAD) * pace + 0.5 * side
@@ -338,7 +353,7 @@ def decide_tick(motion, walk, stand, run, memory, asked, felt, qpos, qvel, ctrl)
     who walks, stands and runs: mean and deviation (82,) of the inputs, and weights and biases of three
     layers, float32. The rest: see above.
     """
-    speeds, periods, joints, rates, stance = motion
+    speeds, periods, joints, rates, stance, means = motion
     if memory[at.STARTED] > 0.0:
         _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel)
     memory[at.STARTED] = 1.0
@@ -351,7 +366,7 @@ def decide_tick(motion, walk, stand, run, memory, asked, felt, qpos, qvel, ctrl)
         _decide(walk, seen, mirrored, memory)
     else:
         _decide(stand, seen, mirrored, memory)
-    _targets(speeds, periods, joints, rates, memory, ctrl)
+    _targets(speeds, periods, joints, rates, means, memory, ctrl)
 
 
 @kernel

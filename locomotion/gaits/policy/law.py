@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from locomotion.gaits.policy.layout import (
     ACTION,
     ANGLES,
+    ARM_SWING,
     ASKED,
     ASKED_SPEED,
     ASKED_TURN,
@@ -39,6 +40,7 @@ from locomotion.gaits.policy.layout import (
     LAG_LEFT,
     LAGS,
     LEAD,
+    LEANING,
     MIRROR_ACTION,
     MIRROR_OBSERVED,
     PHASE,
@@ -53,10 +55,15 @@ from locomotion.gaits.policy.layout import (
     SLOW_RATE,
     SPEED,
     SPIN,
+    SPREAD,
+    SPREADING,
     STARTED,
+    STEP_RATE,
+    SWINGING,
     TIMING,
     TOLD,
     TRIM,
+    TRUNK_LEAN,
     TURN_RATE,
     VELOCITY,
     YAW_SEEN,
@@ -67,12 +74,12 @@ __all__ = [
     "ACCELERATION", "AT_REST", "BEARING", "BEARS", "BEGINS_AT", "BEGINS_WITHIN", "BOTH_BEAR", "BRAKING",
     "CALM", "FACING", "FASTEST_WALK", "FEET_OFF", "FIRST_STEPS", "LAG_SHARE", "LATER", "LEARNED_AHEAD",
     "LEARNED_BRAKING", "LIFT_OFF", "MOST_AHEAD", "MOST_ASKEW", "MOST_BEHIND", "MOST_LATE", "MOST_MISS",
-    "MOST_TRIM", "MOST_TWIST", "PENDULUM", "REACH", "REST_TRIM", "REST_TRIM_ENDS", "REST_TRIM_RATE",
-    "RUNS_FROM", "RUN_ACCELERATION", "RUN_BRAKING", "RUN_TRIM", "SETTLES_AT", "SETTLES_SLOWING",
-    "SETTLES_WITHIN", "SETTLING", "SHIFTING", "SOLE_AHEAD", "SOLE_ASIDE", "STEADY", "STOPS_AT",
-    "STOPS_WITHIN", "STRAIGHT", "TRIM_IN_USE", "TRIM_RATE", "TURNING", "UNWINDS", "Seen", "advance",
-    "along", "decide", "mirrored", "observe", "pace_share", "rate", "shown_speed", "standing_miss",
-    "targets", "turned_feet", "turned_in", "up_and_yaw", "wrap",
+    "MOST_TRIM", "MOST_TWIST", "PENDULUM", "QUICKENS", "QUICKENS_FROM", "REACH", "REST_TRIM",
+    "REST_TRIM_ENDS", "REST_TRIM_RATE", "RUNS_FROM", "RUN_ACCELERATION", "RUN_BRAKING", "RUN_TRIM",
+    "SETTLES_AT", "SETTLES_SLOWING", "SETTLES_WITHIN", "SETTLING", "SHIFTING", "SOLE_AHEAD", "SOLE_ASIDE",
+    "STEADY", "STOPS_AT", "STOPS_WITHIN", "STRAIGHT", "TRIM_IN_USE", "TRIM_RATE", "TURNING", "UNWINDS",
+    "Seen", "advance", "along", "decide", "mirrored", "observe", "own_period", "pace_share", "rate",
+    "shown_speed", "standing_miss", "targets", "turned_feet", "turned_in", "up_and_yaw", "wrap",
 ]  # fmt: skip
 
 ACCELERATION, BRAKING, TURNING = 1.0, 0.8, 2.0
@@ -92,6 +99,9 @@ share `RUN_TRIM` of it, and grows only at the speed asked for; otherwise it shri
 with each decision."""
 FASTEST_WALK, RUNS_FROM = 2.3, 2.05
 """[m/s] of the fastest reference motion for a walk; and the speed asked for, above which a person runs."""
+QUICKENS_FROM, QUICKENS = 1.5, 0.3
+"""[m/s] told, above which a walk's cycle goes on faster than the reference's, and by which share per m/s: the
+network alone takes too few steps there, and is too slow."""
 BEGINS_AT, BEGINS_WITHIN, STRAIGHT = 1.0, 0.4, 0.6
 """[m/s] told, from which a run begins, if the body keeps to it within so much, and [rad/s] that it turns at
 most then."""
@@ -232,6 +242,13 @@ def shown_speed(memory: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.minimum(memory[:, SPEED], most)
 
 
+def own_period(memory: NDArray[np.float64], motion: Motion) -> NDArray[np.float64]:
+    """[s] of a cycle of each person at its usual pace, (n,)."""
+    fast = np.where(memory[:, FAST] > 0.0, 0.0, np.maximum(memory[:, TOLD] - QUICKENS_FROM, 0.0))
+    quicker = 1.0 + memory[:, STEP_RATE] + QUICKENS * fast
+    return motion.period(shown_speed(memory)) / quicker
+
+
 def rate(memory: NDArray[np.float64], period: NDArray[np.float64]) -> NDArray[np.float64]:
     """Cycles per second, (n,), where one usually takes ``period`` [s]."""
     return pace_share(memory) / period * memory[:, RUNNING]
@@ -240,12 +257,17 @@ def rate(memory: NDArray[np.float64], period: NDArray[np.float64]) -> NDArray[np
 def targets(memory: NDArray[np.float64], motion: Motion) -> NDArray[np.float64]:
     """Target angles (n, 24) of `layout.JOINTS` [rad] until the next decision."""
     speed = shown_speed(memory)
-    period = motion.period(speed)
+    period = own_period(memory, motion)
     pace = rate(memory, period)
     middle = motion.at(memory[:, PHASE] + 0.5 * POLICY_DT * pace, speed, memory[:, RUNNING])
-    usual = period * pace  # the reference's rates are those of the usual pace
+    usual = motion.period(speed) * pace  # the reference's rates are those of its own pace
     moving = middle.read(motion.rates) * usual[:, None]
-    found = middle.read(motion.joints) + LEAD * moving + SCALE * memory[:, ACTION.start : ACTION.stop - 1]
+    found = middle.read(motion.joints) + LEAD * moving
+    swing = (found - middle.read_rows(motion.means))[:, SWINGING]
+    found[:, SWINGING] += memory[:, ARM_SWING, None] * swing
+    found[:, SPREADING] += memory[:, SPREAD, None]
+    found[:, LEANING] += memory[:, TRUNK_LEAN]
+    found += SCALE * memory[:, ACTION.start : ACTION.stop - 1]
     phase = memory[:, PHASE] + (0.5 * POLICY_DT + LEAD) * pace
     found[:, HIP_ROTATIONS] += turned_in(turned_feet(memory, phase, period))
     return found
@@ -307,7 +329,7 @@ def advance(
     it; ``halts``: whether the cycle stops for those who come to rest; ``steadies``: whether they are helped
     not to creep away in place and to keep their speed, most of which the policy is to learn by itself;
     ``waits``: whether the speed told waits for a body that is too slow."""
-    pace = rate(memory, motion.period(shown_speed(memory)))
+    pace = rate(memory, own_period(memory, motion))
     before, running = memory[:, PHASE], memory[:, RUNNING] > 0.0
     after = before + POLICY_DT * pace
     to_stand = (asked[:, ASKED_SPEED] < AT_REST) & (np.abs(asked[:, ASKED_TURN]) < FACING)

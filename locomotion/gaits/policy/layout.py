@@ -10,13 +10,15 @@ from numpy.typing import NDArray
 from locomotion.body.person import CONTROL_DT, JOINT_NAMES, MASS
 
 __all__ = [
-    "ACTION", "ACTIONS", "ANGLES", "ANKLE_SOLE", "ASKED", "ASKED_SPEED", "ASKED_TURN", "BODY_WEIGHT",
-    "CONTACTS", "FAST", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT", "FEET_RISE", "FELT_SIZE", "FLOOR", "FORCES",
-    "GRAVITY_UP", "HEADING", "HEELS_AND_BALLS", "HEIGHT_SEEN", "HIP_ROTATIONS", "INPUTS", "JOINTS", "LAGS",
-    "LAG_AHEAD", "LAG_LEFT", "LEAD", "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "MOST_INPUT",
-    "PHASE", "POLICY_DT", "RATES", "RATE_GAIN", "RESTED", "RUNNING", "SCALE", "SIGN_ACTION", "SIGN_JOINT",
-    "SIGN_OBSERVED", "SLOW_RATE", "SOLES", "SOLE_POINTS", "SPEED", "SPIN", "STARTED", "STATE_SIZE",
-    "TICKS_PER_DECISION", "TIMING", "TIP", "TOLD", "TRIM", "TURN_RATE", "VELOCITY", "YAW_SEEN",
+    "ACTION", "ACTIONS", "ANGLES", "ANKLE_SOLE", "ARM_SWING", "ASKED", "ASKED_SPEED", "ASKED_TURN",
+    "BODY_WEIGHT", "CONTACTS", "FAST", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT",
+    "FEET_RISE", "FELT_SIZE", "FLOOR", "FORCES", "GRAVITY_UP", "HEADING", "HEAD_BEND", "HEELS_AND_BALLS",
+    "HEIGHT_SEEN", "HIP_ROTATIONS", "INPUTS", "JOINTS", "LAGS", "LAG_AHEAD", "LAG_LEFT", "LEAD", "LEANING",
+    "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "MOST_INPUT", "PHASE", "POLICY_DT", "RATES",
+    "RATE_GAIN", "RESTED", "RIGHT_FIRST", "RUNNING", "SCALE", "SIGN_ACTION", "SIGN_JOINT", "SIGN_OBSERVED",
+    "SLOW_RATE", "SOLES", "SOLE_POINTS", "SPEED", "SPIN", "SPREAD", "SPREADING", "STARTED", "STATE_SIZE",
+    "STEP_RATE", "STYLE", "SWINGING", "TICKS_PER_DECISION", "TIMING", "TIP", "TOLD", "TRIM", "TRUNK_LEAN",
+    "TURN_RATE", "VELOCITY", "YAW_SEEN",
 ]  # fmt: skip
 
 TICKS_PER_DECISION = 2
@@ -42,6 +44,10 @@ TIP = (0.043, 0.0, -0.024)
 SOLE_POINTS = ("right_heel", "right_ball", "right_tip", "left_heel", "left_ball", "left_tip")
 HIP_ROTATIONS = [JOINTS.index(f"{side}_hip_rotation") for side in ("right", "left")]
 """Of `JOINTS`."""
+SWINGING = [k for k, name in enumerate(JOINTS) if name.endswith(("shoulder_flexion", "elbow_flexion"))]
+SPREADING = [k for k, name in enumerate(JOINTS) if name.endswith(("hip_abduction", "ankle_inversion"))]
+LEANING = JOINTS.index("waist_pitch")
+"""Of `JOINTS`: those with which arms swing, legs are spread while feet stay level, and the trunk leans."""
 HEELS_AND_BALLS = [0, 1, 3, 4]
 """Of `SOLE_POINTS`."""
 
@@ -84,7 +90,9 @@ MOST_INPUT = 8.0
 # ---- memory
 PHASE, RUNNING, RESTED, HEADING, SPEED, TURN_RATE, LAG_AHEAD, LAG_LEFT, STARTED, TOLD, TRIM = range(11)
 FLOOR, FAST = 11, 12
-_M = 13
+STEP_RATE, ARM_SWING, SPREAD, TRUNK_LEAN, HEAD_BEND, RIGHT_FIRST = range(13, 19)
+STYLE = slice(13, 19)
+_M = 19
 ACTION = slice(_M, _M + ACTIONS)
 STATE_SIZE = _M + ACTIONS
 """The memory of a policy: share of the cycle, 0 to 1, from the right heel's strike; whether it goes on; [s]
@@ -92,7 +100,8 @@ since it has nothing to do but to stand, below 0 while it sets off; heading [rad
 rate [rad/s] that it keeps to; low-passed errors of the speed; whether it has decided before; speed [m/s]
 that follows the one asked for, and what it adds to that because it is too slow or too fast; height of the
 ground under it [m], which whoever moves it over a ground keeps up to date; whether it runs, or has not slowed
-down from a run to a walk yet; and its last decisions, in the person's own left and right."""
+down from a run to a walk yet; its style (`locomotion.gaits.policy.style`), all 0 in the usual one; and its
+last decisions, in the person's own left and right."""
 ASKED_SPEED, ASKED_TURN = 0, 1
 """What a caller asks for: speed [m/s] and turn rate [rad/s]."""
 

@@ -1,6 +1,7 @@
 """The reference motion of a policy at run time: targets of its joints over the cycle, at each speed."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,11 @@ class Place:
         fast = (1.0 - b) * table[i + 1, self.earlier] + b * table[i + 1, self.later]
         return (1.0 - a) * slow + a * fast
 
+    def read_rows(self, table: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The same of a ``table`` (s, k) that does not change over the cycle, (n, k)."""
+        a = self.faster_share[:, None]
+        return (1.0 - a) * table[self.slower] + a * table[self.slower + 1]
+
 
 @dataclass(frozen=True)
 class Motion:
@@ -45,6 +51,11 @@ class Motion:
     joints: NDArray[np.float64]
     rates: NDArray[np.float64]
     stance: NDArray[np.float64]
+
+    @cached_property
+    def means(self) -> NDArray[np.float64]:
+        """(1 + s, 24) float64, mean angles over the cycle [rad]."""
+        return self.joints.mean(axis=1)
 
     @property
     def stand(self) -> NDArray[np.float64]:

@@ -47,7 +47,9 @@ class PolicySkill:
     def tables(self) -> tuple[tuple[np.ndarray, ...], ...]:
         """The first arguments of `locomotion.gaits.policy.kernel.decide_tick`."""
         motion = self.motion
-        tables = (motion.speeds, motion.periods, motion.joints, motion.rates, motion.stance)
+        tables = (
+            motion.speeds, motion.periods, motion.joints, motion.rates, motion.stance, motion.means
+        )  # fmt: skip
         return tables, self.walk, self.stand, self.run
 
     def save(self, path: str | os.PathLike[str]) -> None:

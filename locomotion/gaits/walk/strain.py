@@ -58,5 +58,5 @@ def note_strain(
 ) -> None:
     """After a tick: if a foot has just come down, write into ``walk`` how strained it is; arguments as of
     `strain`."""
-    if walk[PHASE] == DOUBLE and walk[CLOCK] == 0.0:
+    if walk.item(PHASE) == DOUBLE and walk.item(CLOCK) == 0.0:
         walk[STRAINS] = strain(walk, observed, command), walk[STRAINS][0]

@@ -326,7 +326,7 @@ class Environment:
         up, yaw = law.up_and_yaw(self.qpos)
         wanted = np.stack([-np.sin(pitch), np.sin(roll) * np.cos(pitch)], axis=1)
         feet = law.along(memory[:, HEADING], seen.soles - self.qpos[:, None, :3])
-        turned = law.turned_feet(memory, memory[:, PHASE], self.motion.period(speed))
+        turned = law.turned_feet(memory, memory[:, PHASE], law.own_period(memory, self.motion))
         feet -= _turn(place.read(reference.soles), turned)
         velocity = law.along(memory[:, HEADING], self.qvel[:, :3])
         joints = place.read(reference.joints)

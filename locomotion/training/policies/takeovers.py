@@ -12,7 +12,8 @@ from locomotion.gaits.policy.kernel import Parts, feel
 from locomotion.gaits.run.layout import COM_VELOCITY, STEP_TIME
 from locomotion.gaits.walk.layout import CLOCK, DOUBLE, PHASE, WALK_STEPS
 from locomotion.human.human import Human
-from locomotion.human.learned_walk import SLOWEST, memory_of, memory_of_run
+from locomotion.human.learned_tick import SLOWEST
+from locomotion.human.learned_walk import memory_of, memory_of_run
 from locomotion.human.state import MOVING
 from locomotion.training.gaits.brake import draw_starts
 from locomotion.training.gaits.gait_state import gait_state

@@ -8,10 +8,12 @@ from numpy.typing import NDArray
 
 from locomotion.body.models import person_on
 from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
+from locomotion.body.traits import by_hand
 from locomotion.gaits.policy.kernel import Parts, decide_tick, feel, new_memory
-from locomotion.gaits.policy.layout import FELT_SIZE, TICKS_PER_DECISION
+from locomotion.gaits.policy.layout import FELT_SIZE, STYLE, TICKS_PER_DECISION
 from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.gaits.policy.stand import stand_still
+from locomotion.gaits.policy.style import style_of
 
 __all__ = ["PolicyTrial"]
 
@@ -27,7 +29,8 @@ class PolicyTrial:
       turn rate [rad/s]. ticks: done so far.
     """
 
-    def __init__(self, skill: PolicySkill) -> None:
+    def __init__(self, skill: PolicySkill, traits: NDArray[np.float64] | None = None) -> None:
+        """``traits``: of the person, a row of `locomotion.body.traits`; None: the usual ones."""
         self.skill = skill
         self.model, index = person_on(None)
         self.data, self.ticks = mujoco.MjData(self.model), 0
@@ -35,7 +38,9 @@ class PolicyTrial:
         self.memory, self.felt, self.asked = new_memory(0.0), np.zeros(FELT_SIZE), np.zeros(2)
         self._waist = self.model.body("waist").id
         self._push_ends = 0
-        stand_still(self.model, self.data, self.parts, skill.motion, np.zeros(3), 0.0, self.felt)
+        style = style_of(by_hand() if traits is None else traits)
+        self.memory[STYLE] = style
+        stand_still(self.model, self.data, self.parts, skill.motion, np.zeros(3), 0.0, self.felt, style)
 
     @property
     def fallen(self) -> bool:

@@ -3,43 +3,15 @@
 import numpy as np
 import pytest
 
-from locomotion.errors import LocomotionError
+from locomotion.body.traits import LEAN, PACE, by_chance, by_hand
 from locomotion.recorded.footfalls import FEET, sole_centres
-from locomotion.recorded.individual import (
-    LEAN,
-    PACE,
-    PHASE,
-    SIZE,
-    TRAITS,
-    by_chance,
-    by_hand,
-    pace_of,
-    scaled,
-    styled,
-)
+from locomotion.recorded.individual import pace_of, scaled, styled
 from locomotion.recorded.motion_set import load_motions
 from locomotion.recorded.posing import posed
 from locomotion.recorded.sampling import sample_gait
 from locomotion.recorded.skeletons import FULL, skeleton
 
 MOTIONS = load_motions()
-
-
-def test_ten_side_by_side_are_not_in_step():
-    traits = np.array([by_chance(seed) for seed in range(10)])
-    assert np.array_equal(by_chance(3), traits[3])
-    assert len(np.unique(traits[:, PHASE].round(3))) == 10
-    assert traits[0].nbytes <= 2048
-    for name, column in zip(TRAITS, traits.T, strict=True):
-        assert (column >= TRAITS[name][1]).all() and (column <= TRAITS[name][2]).all()
-
-
-def test_traits_by_hand_are_checked():
-    assert by_hand(size=1.1)[SIZE] == 1.1
-    with pytest.raises(LocomotionError, match="trait 'limp': valid: phase"):
-        by_hand(limp=1.0)
-    with pytest.raises(LocomotionError, match=r"size is 3.0, expected a number from 0.8 to 1.2"):
-        by_hand(size=3.0)
 
 
 @pytest.mark.parametrize("seed", [1, 2, 7])

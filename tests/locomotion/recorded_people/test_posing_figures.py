@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from locomotion.body.traits import PACE
 from locomotion.recorded.foot_planting import planted
-from locomotion.recorded.individual import PACE, styled
+from locomotion.recorded.individual import styled
 from locomotion.recorded.sampling import sample_gait
 from locomotion.recorded.skeletons import FULL, LEVELS, LOW, MEDIUM, skeleton
 from locomotion.recorded_people import layout as at

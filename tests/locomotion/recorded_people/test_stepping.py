@@ -8,9 +8,9 @@ import pytest
 import navmesh
 from benchmarks.giving_way import floor
 from benchmarks.recorded_starts import WAYS, foot_steps
+from locomotion.body.traits import SIZE, by_hand
 from locomotion.ground.ground import Ground, extruded
 from locomotion.recorded.footfalls import BALL, FEET, HEEL
-from locomotion.recorded.individual import SIZE, by_hand
 from locomotion.recorded.posing import posed
 from locomotion.recorded.skeletons import FULL, LOW, MEDIUM, skeleton
 from locomotion.recorded_people import layout as at

@@ -5,7 +5,7 @@ import pytest
 
 from benchmarks.mission_fuzz import MISSION as EVERYTHING
 from benchmarks.mission_fuzz import Fuzz, mutated
-from locomotion.recorded.individual import TRAITS
+from locomotion.body.traits import TRAITS
 from runtime.events import Arrived, Departed, PostureReached
 from runtime.missions.check import prepare_mission
 from runtime.missions.model import Style
@@ -136,7 +136,7 @@ def test_a_mission_says_how_people_differ(graph, tmp_path):
 
 
 def test_the_style_of_missions_has_the_traits_that_there_are():
-    """Names and ranges are those of `locomotion.recorded.individual.TRAITS`."""
+    """Names and ranges are those of `locomotion.body.traits.TRAITS`."""
     fields = Style.model_json_schema()["properties"]
     ranges = {
         name: [field["anyOf"][0][end] for end in ("minimum", "maximum")] for name, field in fields.items()

@@ -46,13 +46,15 @@ def plain_tick(skill, memory, asked, seen):
     return law.targets(memory, skill.motion)[0]
 
 
-def test_it_decides_as_the_plain_form_from_what_its_sensors_say(skill):
+@pytest.mark.parametrize("style", [np.zeros(6), [-0.06, 0.5, 0.03, 0.1, -0.2, 1.0]], ids=("usual", "own"))
+def test_it_decides_as_the_plain_form_from_what_its_sensors_say(skill, style):
     figure = Figure(whole=True, timestep=0.0025)
     model, data = figure.model, mujoco.MjData(figure.model)
     parts = Parts(PersonIndex.of(model), model)
     data.qpos[2] = 0.9
     felt, memory = np.zeros(FELT_SIZE), new_memory(0.4)
     memory[at.SPEED], memory[at.RUNNING] = 0.3, 1.0
+    memory[at.STYLE] = style
     plain = memory[None].copy()
     columns = [JOINT_NAMES.index(name) for name in at.JOINTS]
     halves, states = set(), []
@@ -75,6 +77,7 @@ def test_it_decides_as_the_plain_form_from_what_its_sensors_say(skill):
         states.append(bool(memory[at.RUNNING]))
         np.testing.assert_allclose(memory, plain[0], atol=2e-5)
         np.testing.assert_allclose(data.ctrl[columns], wanted, atol=2e-5)
+        assert data.ctrl[JOINT_NAMES.index("neck_pitch")] == memory[at.HEAD_BEND]
     assert halves == {False, True}, "both halves of the cycle were seen"
     assert states == [True] * 100 + [False] + [True] * 59, "and a stand, and a step out of it"
 

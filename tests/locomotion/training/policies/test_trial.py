@@ -26,6 +26,15 @@ def test_it_walks_as_people_do():
         assert alike > 0.85
 
 
+@pytest.mark.parametrize("speed", [1.7, 2.0])
+def test_it_walks_fast_with_as_many_steps_as_people(speed):
+    record = learned_walk(load_policy(), speed, 8.0)
+    assert not record.fell
+    found = figures(record)
+    assert found["speed"] == pytest.approx(speed, rel=0.07)
+    assert found["cadence"] == pytest.approx(human_cadence(speed), rel=0.1)
+
+
 def test_it_stands_sets_off_turns_and_takes_a_push():
     trial = PolicyTrial(load_policy())
     place = trial.place()

@@ -32,6 +32,7 @@ __all__ = [
     "MAY_RUN",
     "MEMORY_SIZE",
     "MOST_TURN",
+    "OWN_STYLE",
     "SLOWEST",
     "TICKS",
     "decide_and_walk_on",
@@ -50,7 +51,7 @@ ACTIVE = at.STATE_SIZE + at.FELT_SIZE
 TICKS, MAY_RUN, OWN_STYLE = ACTIVE + 1, ACTIVE + 2, slice(ACTIVE + 3, ACTIVE + 9)
 MEMORY_SIZE = ACTIVE + 9
 """The memory of the learned walk: the policy's memory, what it feels, whether it moves the person, for how
-many ticks, and whether it may run here."""
+many ticks, whether it may run here, and the person's own style, which it shows on level ways."""
 _SOLE_HEIGHTS = at.STATE_SIZE + at.SOLES.start + 2
 
 

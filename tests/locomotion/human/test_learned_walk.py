@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from locomotion.body.person import JOINT_NAMES
+from locomotion.body.traits import by_hand
 from locomotion.errors import LocomotionError
+from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.skill import load_policy
 from locomotion.gaits.walk.layout import WALK_STEPS
 from locomotion.ground.ground import Ground
@@ -21,6 +23,13 @@ def walker(ground=None, **options):
     human = Human(ground, clearing=(), rehearsals=0, policy=load_policy(), **options)
     human.reset((0.0, 0.0, 0.0), 0.0)
     return human
+
+
+def with_kerb():
+    """Level ground with a kerb of 0.1 m at x = 6."""
+    kerb = np.array([[x, y, z] for x, z in ((-5, 0), (6, 0), (6.001, 0.1), (20, 0.1)) for y in (-3, 3.0)])
+    faces = [f for k in range(3) for f in ([2 * k, 2 * k + 2, 2 * k + 3], [2 * k, 2 * k + 3, 2 * k + 1])]
+    return Ground.from_arrays(kerb, faces)
 
 
 def learned_at(human, limit=40.0):
@@ -49,10 +58,20 @@ def test_it_sets_off_walks_and_stops_as_learned_on_level_ground():
     assert np.linalg.norm(human.com[:2] - [12, 3]) < 0.5
 
 
+def test_its_style_shows_on_level_ways_only():
+    """Elsewhere planned gaits take over, and they know the usual person only."""
+    human = walker(with_kerb())
+    human.wear(by_hand(arms=1.5, lean=0.1))
+    for end, shows in (([4, 0, 0], True), ([12, 0, 0.1], False), ([4, 1, 0], True)):
+        human.follow([[0, 0, 0], end], 1.25)
+        assert human.on_feet.learned_memory[at.STYLE].any() == shows
+    again = walker(with_kerb())
+    again.restore_state(human.save_state())
+    assert np.array_equal(again.on_feet.learned_memory, human.on_feet.learned_memory)
+
+
 def test_it_gives_back_before_a_kerb_and_where_it_is_told_to_stop():
-    kerb = np.array([[x, y, z] for x, z in ((-5, 0), (6, 0), (6.001, 0.1), (20, 0.1)) for y in (-3, 3.0)])
-    faces = [f for k in range(3) for f in ([2 * k, 2 * k + 2, 2 * k + 3], [2 * k, 2 * k + 3, 2 * k + 1])]
-    human = walker(Ground.from_arrays(kerb, faces))
+    human = walker(with_kerb())
     human.follow([[0, 0, 0], [12, 0, 0.1]], 1.25)
     places = learned_at(human)
     assert human.status == "arrived"

@@ -7,6 +7,7 @@ python examples/learned_walk_film.py [speed of the walk in m/s] [folder]
 """
 
 import sys
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -116,10 +117,16 @@ def draw_people(rows: dict[str, np.ndarray], file: Path) -> None:
     sheet.savefig(file)
 
 
+@cache
+def scene() -> tuple[Triangles, Figure]:
+    """The ground, and the person's shapes."""
+    corners = HALF * np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
+    return Triangles(corners, np.array([[0, 1, 2], [0, 2, 3]])), Figure.from_model(build_person())
+
+
 def seen(pose: np.ndarray, away: np.ndarray, width: float, size: tuple[int, int]) -> np.ndarray:
     """A picture of a person, seen from ``away`` of its pelvis."""
-    corners = HALF * np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
-    ground, figure = Triangles(corners, np.array([[0, 1, 2], [0, 2, 3]])), Figure.from_model(build_person())
+    ground, figure = scene()
     pelvis = np.array([*pose[0, :2], 0.9])
     camera = Camera(pelvis + away, pelvis + np.array([0.0, 0.0, -0.05]), width)
     return render(ground, [figure.posed(pose)], camera, size)

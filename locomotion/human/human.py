@@ -188,8 +188,8 @@ class Human(Person):
         self.composition.bravery = checked_bravery(bravery)
 
     def wear(self, traits: NDArray[np.float64]) -> None:
-        """Differ from others on ways that it goes as learned from end to end: ``traits`` (7,) are a row of
-        `locomotion.body.traits`, its size is left out."""
+        """Differ from others on the next ways that it goes as learned from end to end: ``traits`` (7,) are a
+        row of `locomotion.body.traits`; size and phase do not show."""
         if self.on_feet.learned is not None:
             self.on_feet.learned.wear(traits)
 

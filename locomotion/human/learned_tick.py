@@ -40,7 +40,7 @@ __all__ = [
 ]
 
 SLOWEST = 0.3
-"""[m/s] that it walks at least; who is asked for less than half of it comes to rest."""
+"""[m/s] at which it walks at least. Asked for less than half of that, it comes to rest."""
 MOST_TURN = 1.2
 """[rad/s] that it turns at most."""
 _SIDEWAYS = 1.2  # [m/s^2] in a bend at most
@@ -48,8 +48,9 @@ _EAGERNESS = 2.0  # [1/s] of turning towards the heading asked for
 _FACES = 0.1  # [rad] off that heading up to which a person at rest does not turn
 
 ACTIVE = at.STATE_SIZE + at.FELT_SIZE
-TICKS, MAY_RUN, OWN_STYLE = ACTIVE + 1, ACTIVE + 2, slice(ACTIVE + 3, ACTIVE + 9)
-MEMORY_SIZE = ACTIVE + 9
+TICKS, MAY_RUN, _OWN = ACTIVE + 1, ACTIVE + 2, ACTIVE + 3
+OWN_STYLE = slice(_OWN, _OWN + at.STYLE.stop - at.STYLE.start)
+MEMORY_SIZE = OWN_STYLE.stop
 """The memory of the learned walk: the policy's memory, what it feels, whether it moves the person, for how
 many ticks, whether it may run here, and the person's own style, which it shows on level ways."""
 _SOLE_HEIGHTS = at.STATE_SIZE + at.SOLES.start + 2

@@ -118,10 +118,8 @@ class LearnedWalk:
         return self.memory.item(MAY_RUN) > 0.0
 
     def wear(self, traits: NDArray[np.float64]) -> None:
-        """Move in the style of these ``traits`` (7,) from now on (`locomotion.body.traits`)."""
-        shown = np.array_equal(self._state[at.STYLE], self.memory[OWN_STYLE])
+        """Move in the style of these ``traits`` (7,) on the next ways (`locomotion.body.traits`)."""
         self.memory[OWN_STYLE] = style_of(traits)
-        self.show_style(shown)
 
     def show_style(self, shows: bool) -> None:
         """Move in its own style from now on, or as the usual person: planned gaits take over from that more
@@ -231,8 +229,6 @@ class LearnedWalk:
         style = self._state[at.STYLE].copy()
         self._state[:] = memory
         self._state[at.STYLE] = style
-        if memory[at.RUNNING] == 0.0 and style[at.RIGHT_FIRST - at.STYLE.start] > 0.0:
-            self._state[at.PHASE] = (memory[at.PHASE] + 0.5) % 1.0
         self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
 
     def give_back(self, body: Simulation, walk: NDArray, fastest: float) -> None:

@@ -305,7 +305,7 @@ class Expectation(_Strict):
 
 
 class Style(_Strict):
-    """How a person differs from others; what is left out is by chance."""
+    """How a person differs from others. What is left out is by chance, or as usual while it is simulated."""
 
     phase: Annotated[float, Ge(0.0), Le(1.0)] | None = None
     """Of its steps, as a share of two of them."""

@@ -348,13 +348,15 @@ class Agent:
 
     def set_style(self, /, **traits: float) -> None:
         """Let a person differ from others in these traits: its ``phase``, ``pace``, ``width`` of step, swing
-        of the ``arms``, ``lean``, ``head`` and ``size``, as of `locomotion.body.traits.TRAITS`; the others
-        stay as they are: at first the usual ones of who is simulated, by chance of who is recorded, and the
-        size 1, that of a simulated person, 1.76 m. A simulated one shows them on level ways without
-        obstacles, within `locomotion.gaits.policy.style.WORN`: beyond that it would fall. Recordings and
-        clients take the size that one has when they begin or it appears. Raises `RuntimeInputError` for an
-        unknown trait, a value out of its range, another size than 1 for a person whose `detail` is "physics"
-        or "auto", and any other body.
+        of the ``arms``, ``lean``, ``head`` and ``size``, as of `locomotion.body.traits.TRAITS`. Those that
+        are not named stay as they are. A simulated person begins with the usual ones, one that plays recorded
+        motion with traits by chance, and both with the size 1, which is 1.76 m.
+
+        While it is simulated they show on its next level ways without obstacles, but for size and phase, and
+        within `locomotion.gaits.policy.style.WORN`: beyond that it would fall. Recordings and clients take
+        the size that one has when they begin or it appears. Raises `RuntimeInputError` for an unknown trait,
+        a value out of its range, another size than 1 for a person whose `detail` is "physics" or "auto", and
+        any other body.
         """
         if self.has_levels:
             _check_size(self.name, checked_style(traits), self._detail)
@@ -701,8 +703,7 @@ class Agent:
         self._heed(self._bravery)
         if self._style:
             driver.set_style(self._style)
-        else:
-            self._style |= driver.traits  # by chance
+        self._style |= driver.traits  # those by chance, too
 
     def leave(self) -> None:
         """Have no body any more; `World.remove` calls this."""

@@ -40,7 +40,7 @@ def stand_still(
     style: NDArray[np.float64] = _USUAL,
 ) -> None:
     """Let a person stand still on the level ground point ``position`` (3,) [m], facing ``yaw`` [rad], in its
-    ``style`` (6,), as of `locomotion.gaits.policy.style.style_of`; fills ``felt`` (FELT_SIZE,)."""
+    ``style`` (5,), as of `locomotion.gaits.policy.style.style_of`; fills ``felt`` (FELT_SIZE,)."""
     mujoco.mj_resetData(model, data)
     half = 0.5 * yaw
     data.qpos[:2] = position[:2] - motion.stance[0] * np.array([math.cos(yaw), math.sin(yaw)])

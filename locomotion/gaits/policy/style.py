@@ -9,11 +9,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.body.traits import ARMS, HEAD, LEAN, PACE, PHASE, WIDTH
+from locomotion.body.traits import ARMS, HEAD, LEAN, PACE, WIDTH
 from locomotion.gaits.policy.layout import (
     ARM_SWING,
     HEAD_BEND,
-    RIGHT_FIRST,
     SPREAD,
     STEP_RATE,
     STYLE,
@@ -27,9 +26,9 @@ WORN = {"width": (-0.05, 0.04), "arms": (0.3, 2.0), "lean": (-0.04, 0.3)}
 
 
 def style_of(traits: NDArray[np.float64]) -> NDArray[np.float64]:
-    """`layout.STYLE` of a memory, (6,) float64, from a row of `locomotion.body.traits.TRAITS` (7,): rate of
+    """`layout.STYLE` of a memory, (5,) float64, from a row of `locomotion.body.traits.TRAITS` (7,): rate of
     steps and swing of the arms as shares of the usual ones, less 1; [rad] by which legs are spread, the trunk
-    leans and the head is bent; whether the right foot is the first to set off."""
+    leans and the head is bent."""
     width, arms, lean = (
         min(max(float(traits[k]), low), high)
         for k, (low, high) in zip((WIDTH, ARMS, LEAN), WORN.values(), strict=True)
@@ -41,7 +40,6 @@ def style_of(traits: NDArray[np.float64]) -> NDArray[np.float64]:
         (SPREAD, width),
         (TRUNK_LEAN, lean),
         (HEAD_BEND, float(traits[HEAD]) - lean),
-        (RIGHT_FIRST, float(traits[PHASE] >= 0.5)),
     ):
         style[name - STYLE.start] = value
     return style

@@ -270,6 +270,24 @@ def test_traits_by_chance_are_the_same_after_physics(graph, tmp_path, visit):
     assert other.state_hash() == world.state_hash()
 
 
+def test_traits_by_chance_of_who_was_simulated_first_are_the_same_on_every_visit(graph):
+    world = World(graph, seed=5)
+    ada = world.spawn("human", (2.0, 3.0, 0.0))
+    ada.set_style(arms=1.4)
+    ada.detail = "low"
+    world.step(1.0)
+    seen = dict(ada.driver.traits)
+    assert ada.level == "low" and seen["arms"] == 1.4
+    ada.detail = "physics"
+    world.step(1.0)
+    ada.go_to((3.5, 3.0, 0.0), speed=1.3)
+    while ada.moving:
+        world.step(0.5)
+    ada.detail = "low"
+    world.step(1.0)
+    assert ada.level == "low" and ada.driver.traits == seen
+
+
 @pytest.mark.parametrize("detail", ["physics", "auto"])
 def test_nobody_who_may_be_simulated_has_another_size(graph, detail):
     world = World(graph)

@@ -46,7 +46,7 @@ def plain_tick(skill, memory, asked, seen):
     return law.targets(memory, skill.motion)[0]
 
 
-@pytest.mark.parametrize("style", [np.zeros(6), [-0.06, 0.5, 0.03, 0.1, -0.2, 1.0]], ids=("usual", "own"))
+@pytest.mark.parametrize("style", [np.zeros(5), [-0.06, 0.5, 0.03, 0.1, -0.2]], ids=("usual", "own"))
 def test_it_decides_as_the_plain_form_from_what_its_sensors_say(skill, style):
     figure = Figure(whole=True, timestep=0.0025)
     model, data = figure.model, mujoco.MjData(figure.model)

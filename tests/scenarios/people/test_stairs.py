@@ -27,6 +27,7 @@ from locomotion.human.state import MOVING, same
 from locomotion.rehearsal.lookahead import Lookahead
 from locomotion.rehearsal.predicted import Predicted
 from locomotion.rehearsal.trials import REHEARSALS, STAYS_UP, STEPPINGS, StepsOn, at_once
+from tests.enough import enough
 
 _STEPS, _RISE, _TREAD = 9, 0.12, 0.52  # number; [m] of each along the way: its front, and behind it
 _LEVEL = 4.0  # [m] before and behind
@@ -59,7 +60,7 @@ def arrives(slope, riser, down, seed):
 @pytest.mark.parametrize(("slope", "riser", "down"), [(0.42, 0.05, False), (0.36, 0.05, True)])
 def test_goes_slowly_enough_on_a_steep_flight(slope, riser, down):
     """Who goes up at the pace of level ground falls nearly always."""
-    assert sum(arrives(slope, riser, down, seed) for seed in range(12)) >= 8
+    assert enough((arrives(slope, riser, down, seed) for seed in range(12)), 8)
 
 
 def stairs(riser, tread):
@@ -97,7 +98,7 @@ def test_walks_over_stairs_as_people_build_them(riser, tread, down, least):
     """Who went as on level ground came up 5 of 20 flights with steps of 0.15 m and 2 of those of 0.17 m; who
     planned as if feet landed in time, and did not foresee the swing leg, came down 5 of 20 with steps of
     0.15 m by 0.3 m and 2 of 0.17 m."""
-    assert sum(walks_over(riser, tread, down, seed) for seed in range(10)) >= least
+    assert enough((walks_over(riser, tread, down, seed) for seed in range(10)), least)
 
 
 @pytest.mark.parametrize(("riser", "tread"), [(0.15, 0.30), (0.20, 0.27)])

@@ -13,12 +13,14 @@ from locomotion.human.state import MOVING
 from locomotion.training.gaits.grounds import training_ground
 from locomotion.training.gaits.path_trial import draw_path, follow_path, straight_on
 from locomotion.training.gaits.walk import KINDS as WALKS
+from tests.enough import enough
 
 
 @pytest.mark.parametrize("kind", ["pushed", "rolling", "ramps", "moguls", "crags"])
 def test_walks_along_winding_paths(kind):
-    figures = [follow_path(draw_path(np.random.default_rng([7, k]), **WALKS[kind])).figures for k in range(6)]
-    assert sum(f["time"] > 6.0 and f["side_drift"] < 0.5 for f in figures) >= 5
+    paths = (draw_path(np.random.default_rng([7, k]), **WALKS[kind]) for k in range(6))
+    figures = (follow_path(path).figures for path in paths)
+    assert enough((f["time"] > 6.0 and f["side_drift"] < 0.5 for f in figures), 5)
 
 
 def walk_on_slope(slope, direction_deg, speed):
@@ -53,7 +55,7 @@ def rests_on_slope(slope, direction_deg):
 
 @pytest.mark.parametrize(("slope", "least"), [(0.2, 7), (0.3, 6), (math.tan(math.radians(20.0)), 6)])
 def test_comes_to_rest_at_a_goal_on_a_slope(slope, least):
-    assert sum(rests_on_slope(slope, direction) for direction in range(0, 181, 30)) >= least
+    assert enough((rests_on_slope(slope, direction) for direction in range(0, 181, 30)), least)
 
 
 def test_walking_person_goes_on_bit_for_bit_when_restored():
@@ -116,4 +118,4 @@ def stays_up_while_told_elsewhere(seed, speed):
 @pytest.mark.parametrize(("speed", "least"), [(1.25, 11), (2.0, 9)])
 def test_a_walking_person_that_is_told_elsewhere_again_and_again_stays_up(speed, least):
     """Half of such walks ended in a fall when people turned as fast in a walk as on the spot."""
-    assert sum(stays_up_while_told_elsewhere(seed, speed) for seed in range(12)) >= least
+    assert enough((stays_up_while_told_elsewhere(seed, speed) for seed in range(12)), least)

@@ -7,14 +7,9 @@ from locomotion.gaits.policy.layout import JOINTS
 from locomotion.training.policies.figure import Figure
 from locomotion.training.policies.reference import SAMPLES, SPEEDS
 from locomotion.training.policies.running_reference import SPEEDS as RUNS
-from locomotion.training.policies.running_reference import contact_time, run_cadence, with_run
+from locomotion.training.policies.running_reference import contact_time, run_cadence
 
 GRAVITY = 9.81
-
-
-@pytest.fixture(scope="module")
-def both(reference):
-    return with_run(reference)
 
 
 def test_the_walk_is_as_it_was(both, reference):

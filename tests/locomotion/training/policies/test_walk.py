@@ -11,14 +11,17 @@ from locomotion.training.policies.walk import train_walk_policy
 from locomotion.training.training import NotLearnedError, Training
 
 
-def test_what_does_not_walk_is_not_written(tmp_path, monkeypatch, reference):
+def test_what_does_not_walk_is_not_written(tmp_path, monkeypatch, reference, both):
     told = Counter()
     training = Training(0, tmp_path / "checkpoint", effort=1e-6, on_progress=lambda p: told.update([p.stage]))
     monkeypatch.setattr(walk, "WALKING", WALKING[4:])
     monkeypatch.setattr(walk, "RUNNING", RUNNING[:1])
     monkeypatch.setattr(walk, "STANDING", STANDING[:1])
     monkeypatch.setattr(walk, "_PEOPLE", 16)
+    monkeypatch.setattr(walk, "_TAKEOVERS", 30)
+    monkeypatch.setattr(walk, "_OUT_OF_RUNS", 30)
     monkeypatch.setattr(walk, "make_reference", lambda: reference)
+    monkeypatch.setattr(walk, "with_run", lambda walks: both)
     with pytest.raises(NotLearnedError, match=r"walk-policy does not work: at 0.8 m/s it falls within 18 s"):
         train_walk_policy(training, tmp_path / "policy.npz")
     assert not (tmp_path / "policy.npz").exists()

@@ -3,9 +3,8 @@
 import hashlib
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
-from itertools import chain
-from typing import Any, TypeVar
+from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +12,6 @@ from numpy.typing import ArrayLike
 from locomotion import MOVING, Ground, Human, LocomotionError
 from locomotion import body_events as bodily
 from locomotion.avoidance.yielding import Course
-from locomotion.body.traits import by_hand
 from locomotion.quadruped import Animal
 from locomotion.skills.registry import CLEARING, skill_kind
 from runtime.bodies.figure import Figure
@@ -21,8 +19,6 @@ from runtime.bodies.pose import Pose
 from runtime.bodies.protocol import Driver
 from runtime.errors import RuntimeInputError
 from runtime.events import (
-    Arrived,
-    BackedOut,
     Blocked,
     Departed,
     Event,
@@ -30,21 +26,18 @@ from runtime.events import (
     GotUp,
     Hindered,
     Lost,
-    PostureReached,
-    SkillFinished,
-    SkillStarted,
-    Stuck,
-    TurnedAway,
     Waiting,
 )
 from runtime.planning.beyond import Beyond, loaded_part
 from runtime.planning.planning import NoWay, Plan
 from runtime.traffic.waiting_and_deadlock import Headway
 from runtime.world.agent_services import Host
+from runtime.world.agent_state import AgentState, Errand, check_size, checked_style
 from runtime.world.arguments import checked_number, checked_points
 from runtime.world.level_of_detail import AUTO, PHYSICS, checked_detail
+from runtime.world.news import news_of
 
-__all__ = ["Agent", "AgentState", "Pose"]
+__all__ = ["Agent", "Pose"]
 
 _POSTURED = "full"  # the level of a simulated person while it takes a posture
 _FATAL = "dead"  # the posture that is taken at once
@@ -54,68 +47,6 @@ _TURNINGS = 6  # times that it goes back before the same obstacle, until it is s
 _Kind = TypeVar("_Kind")
 _AT_REST = "standing", "arrived"
 _HELPLESS = bodily.GotStuck, bodily.StrayedFromPath, bodily.MissedGoal
-
-
-@dataclass(frozen=True)
-class Errand:
-    """What an agent was told: `Agent.go_to`'s arguments. ``doubtful``: the level has changed while it could
-    not look for another way. ``attempts``: how often it was stuck or lost on its way. ``balked``: tags of the
-    obstacles before which it went back for another run-up, once for each time; ``closed``: of those that it
-    has given up. ``beyond``: what of its way is not loaded yet, in an open world; ``length`` [m]: of the
-    whole way when it set out, 0 if all was loaded; ``waits``: whether it stands until more is loaded."""
-
-    goals: tuple[tuple[float, float, float], ...] = ()
-    speed: float = 0.0
-    facing: float | None = None
-    doubtful: bool = False
-    attempts: int = 0
-    balked: tuple[str, ...] = ()
-    closed: tuple[str, ...] = ()
-    beyond: Beyond | None = None
-    length: float = 0.0
-    waits: bool = False
-
-
-@dataclass(frozen=True)
-class AgentState:
-    """What `World.save` keeps of an agent. ``arrival``: how many bodies in the world came before its own;
-    ``style``: its traits."""
-
-    body: str
-    born: float
-    driver: Any
-    blocked: bool
-    goal: tuple[float, float, float]
-    errand: Errand
-    headway: Headway
-    detail: str = "physics"
-    bravery: float | None = None
-    arrival: int = 0
-    style: Mapping[str, float] = field(default_factory=dict)
-
-    def check(self, name: str) -> None:
-        """Raises `RuntimeInputError` for what no agent can have saved, as far as that shows without its
-        body."""
-        errand = self.errand
-        told = errand.speed, errand.facing or 0.0, *chain(*errand.goals), errand.length
-        numbers = [self.born, *self.goal, *told]
-        if not np.isfinite(numbers).all():
-            raise RuntimeInputError(f"{name} has been told numbers that are not finite")
-        headway = self.headway
-        if np.isnan([headway.left, headway.since, headway.told, headway.tried]).any():
-            raise RuntimeInputError(f"{name} remembers of its way what is no number")
-        if not name or errand.attempts < 0 or (errand.goals and errand.speed <= 0.0):
-            raise RuntimeInputError(f"{name!r} has been told what nobody can do")
-        beyond = errand.beyond
-        if beyond is not None:
-            beyond.check(name, len(errand.goals))
-        elif errand.waits:
-            raise RuntimeInputError(f"{name!r} waits for nothing")
-        try:
-            by_hand(None, **self.style)
-        except LocomotionError as error:
-            raise RuntimeInputError(f"the style of {name!r}: {error}") from None
-        _check_size(name, self.style, self.detail)
 
 
 class Agent:
@@ -314,7 +245,7 @@ class Agent:
     @detail.setter
     def detail(self, detail: str) -> None:
         asked = checked_detail(detail, self._host.levels(self.body), self.body)
-        _check_size(self.name, self._style, asked)
+        check_size(self.name, self._style, asked)
         self._detail, self.waits_for_level = asked, True
         if detail not in (AUTO, self.level):
             self.change_level(detail)
@@ -359,7 +290,7 @@ class Agent:
         any other body.
         """
         if self.has_levels:
-            _check_size(self.name, checked_style(traits), self._detail)
+            check_size(self.name, checked_style(traits), self._detail)
         self._driver.set_style(traits)
         self._style |= traits
 
@@ -673,7 +604,7 @@ class Agent:
             among_others = isinstance(event, bodily.GotStuck) and event.among_others
             if isinstance(event, _HELPLESS) and not among_others and self._tries_again():
                 continue
-            told = self._translated(event)
+            told = news_of(event, self.name, self._born, self._goal)
             if isinstance(told, Fell | Lost):
                 self._blocked = False
             if told is not None:
@@ -747,57 +678,6 @@ class Agent:
         if self._errand.beyond is not None:
             own = hashlib.sha256(f"{own} {self._errand!r}".encode()).hexdigest()
         return own
-
-    def _translated(self, event: bodily.Event) -> Event | None:
-        """A body's event as one of the world's, None for what the world reports on its own."""
-        base: dict[str, Any] = {
-            "time": event.time + self._born, "agent": self.name, "position": _triple(event.position)
-        }  # fmt: skip
-        if isinstance(event, bodily.Arrived):
-            return Arrived(**base, goal=self._goal)
-        if isinstance(event, bodily.Fell):
-            return Fell(**base)
-        if isinstance(event, bodily.GotUp):
-            return GotUp(**base, seconds=event.seconds)
-        if isinstance(event, bodily.TookOff):
-            return SkillStarted(**base, skill=skill_kind(event.affordance).skill, height=event.height)
-        if isinstance(event, bodily.Cleared):
-            return SkillFinished(**base, skill=skill_kind(event.affordance).skill, height=event.height)
-        if isinstance(event, bodily.TurnedAway):
-            skill = skill_kind(event.affordance).skill
-            return TurnedAway(**base, skill=skill, height=event.size, odds=event.odds)
-        if isinstance(event, bodily.GotStuck):
-            return Stuck(**base, reason=event.reason)
-        if isinstance(event, bodily.MissedGoal):
-            return Lost(**base, reason=f"passed the goal at a distance of {event.distance:.1f} m")
-        if isinstance(event, bodily.PostureReached):
-            return PostureReached(**base, posture=event.posture, holds=event.held)
-        if isinstance(event, bodily.BackedOut):
-            return BackedOut(**base, length=event.distance)
-        if isinstance(event, bodily.LostGround):
-            return Lost(**base, reason="there is no ground under it or ahead of it any more")
-        if isinstance(event, bodily.StrayedFromPath):
-            return Lost(**base, reason=f"is {event.distance:.1f} m beside its path")
-        return None
-
-
-def checked_style(traits: Mapping[str, float]) -> Mapping[str, float]:
-    """``traits``. Raises `RuntimeInputError` as `Agent.set_style`, but for sizes."""
-    try:
-        by_hand(None, **traits)
-    except LocomotionError as error:
-        raise RuntimeInputError(str(error)) from None
-    return traits
-
-
-def _check_size(name: str, style: Mapping[str, float], detail: str) -> None:
-    """Raises `RuntimeInputError` for a size that would jump when physics takes over."""
-    size = style.get("size", 1.0)
-    if size != 1.0 and detail in (AUTO, PHYSICS):
-        raise RuntimeInputError(
-            f"{name} with the detail {detail!r} cannot have the size {size:g}; simulated people have 1: "
-            'give it the detail "full", "medium" or "low", or size=1'
-        )
 
 
 def _triple(point: ArrayLike) -> tuple[float, float, float]:

@@ -11,7 +11,7 @@ import numpy as np
 from locomotion.body.person import CONTROL_DT
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
-from runtime.world.agent import AgentState
+from runtime.world.agent_state import AgentState
 from runtime.world.level_of_detail import Budget, Viewer
 from runtime.world.state_file import DTYPES, pack, unpack
 from runtime.world.streaming import StreamingState

@@ -29,8 +29,9 @@ from runtime.events import Event
 from runtime.planning.level import Level
 from runtime.planning.rules import obstacle_rules, person_walk_rules
 from runtime.traffic.traffic import EVERY, Traffic
-from runtime.world.agent import Agent, AgentState
+from runtime.world.agent import Agent
 from runtime.world.agent_services import Clock, Host
+from runtime.world.agent_state import AgentState
 from runtime.world.arguments import checked_files, checked_number, checked_points, checked_whole
 from runtime.world.event_log import EventLog
 from runtime.world.level_of_detail import AUTO, LEVELS, PHYSICS, Budget, Viewer, checked_detail, levels_for

@@ -20,14 +20,18 @@ from locomotion.rehearsal.trials import (
     BRAKINGS,
     ENDINGS,
     HOLDS,
+    RESTS_IN,
     RUN_UPS,
     SETTING_OFF,
     SLOWINGS,
     STEPPINGS,
+    STEPS_IN,
+    WALKS_IN,
     ComesToRest,
     StepsOn,
     balk,
     clears,
+    clears_in,
     vary_run_up,
     walks_on,
 )
@@ -99,7 +103,7 @@ class GaitChanges:
         def set_off(body: Chooser, choice: tuple[bool, Sequence[float]]) -> None:
             body.set_off(choice, speed)
 
-        choice, went, seen, known = self._decider.best(person, SETTING_OFF, set_off, _CLEARS)
+        choice, went, seen, known = self._decider.best(person, SETTING_OFF, set_off, _CLEARS, self._clears_in)
         if went >= HOLDS and (known or self._decider.answer is None):
             person.set_off(choice, speed)
             self._decider.predicted.expect(person, seen)
@@ -109,7 +113,7 @@ class GaitChanges:
         step."""
         person = self._person
         if person.on_feet.begins_strained_step:
-            choice, _, seen, _ = self._decider.best(person, STEPPINGS, _vary_step, self._steps_on)
+            choice, _, seen, _ = self._decider.best(person, STEPPINGS, _vary_step, self._steps_on, STEPS_IN)
             person.vary_step(choice)
             self._decider.predicted.expect(person, seen)
 
@@ -145,12 +149,19 @@ class GaitChanges:
         if self._decider.answer is None:
             self._decider.undecided = True
             return
-        choice, went, seen, known = self._decider.best(person, RUN_UPS, vary_run_up, _CLEARS)
+        choice, went, seen, known = self._decider.best(person, RUN_UPS, vary_run_up, _CLEARS, self._clears_in)
         person.run_up.vary(choice, person.control, known and went >= HOLDS)
         if went >= HOLDS:
             self._decider.predicted.expect(person, seen)
         else:
-            self._slow_as_rehearsed(BALKINGS, balk, _WALKS_ON)
+            self._slow_as_rehearsed(BALKINGS, balk, _WALKS_ON, WALKS_IN)
+
+    @property
+    def _clears_in(self) -> int:
+        """Ticks of a trial that clears the obstacle ahead."""
+        ahead = self._person.run_up.ahead
+        assert ahead is not None
+        return clears_in(ahead.arc_length - self._person.arc_length)
 
     def _ends_as_learned_or_will(self, stops: bool) -> bool:
         """End the run as learned if a foot has just come down; return whether it does, or will try at the
@@ -160,8 +171,8 @@ class GaitChanges:
             return False
         if person.control[STEP_TIME] != 0.0:
             return True
-        goes_well = ComesToRest() if stops else _WALKS_ON
-        _, went, seen, known = self._decider.best(person, ENDINGS, _end_run, goes_well)
+        goes_well, takes = (ComesToRest(), RESTS_IN) if stops else (_WALKS_ON, WALKS_IN)
+        _, went, seen, known = self._decider.best(person, ENDINGS, _end_run, goes_well, takes)
         since = person.ticks - follower.stops_since
         may_wait = since < _TRIES if stops else follower.begins_to_slow
         if not known and self._decider.answer is not None and may_wait:
@@ -194,7 +205,7 @@ class GaitChanges:
             return
         learned = person.on_feet.brake_skill.deceleration
         ways = sorted(BRAKINGS, key=lambda harder: abs(harder * learned - person.on_feet.slowing) > _SAME)
-        self._slow_as_rehearsed(ways, _brake, ComesToRest())
+        self._slow_as_rehearsed(ways, _brake, ComesToRest(), RESTS_IN)
 
     def _slow_down_better(self) -> None:
         """If it slows down as it has not rehearsed, do so otherwise, or brake, if that does not hold."""
@@ -204,8 +215,8 @@ class GaitChanges:
             return
         now = person.on_feet.slowing
         ways = (now, *(each for each in SLOWINGS if each != now))
-        if not self._slow_as_rehearsed(ways, _slow_down, _WALKS_ON):
-            self._slow_as_rehearsed(BRAKINGS, _brake, ComesToRest())
+        if not self._slow_as_rehearsed(ways, _slow_down, _WALKS_ON, WALKS_IN):
+            self._slow_as_rehearsed(BRAKINGS, _brake, ComesToRest(), RESTS_IN)
 
     def _slow_down_or_will(self, must: bool) -> None:
         """Slow down to a walk, at once if there was no time to rehearse it; if rehearsals fail, brake, or run
@@ -214,7 +225,7 @@ class GaitChanges:
         may_wait = not must and self._decider.answer is not None and follower.begins_to_slow
         if may_wait and follower.tried_to_slow and ticks - follower.tried_to_slow < self._decider.again:
             return
-        if self._slow_as_rehearsed(SLOWINGS, _slow_down, _WALKS_ON):
+        if self._slow_as_rehearsed(SLOWINGS, _slow_down, _WALKS_ON, WALKS_IN):
             return
         if not must and self._brakes_well(may_wait):
             return
@@ -225,19 +236,20 @@ class GaitChanges:
 
     def _brakes_well(self, may_wait: bool) -> bool:
         """Brake if rehearsals succeed; return whether it does. ``may_wait``: see `_slow_as_rehearsed`."""
-        return self._slow_as_rehearsed(BRAKINGS, _brake, ComesToRest(), may_wait)
+        return self._slow_as_rehearsed(BRAKINGS, _brake, ComesToRest(), RESTS_IN, may_wait)
 
     def _slow_as_rehearsed(
         self,
         decelerations: Sequence[float],
         slow: Callable[[Chooser, float], None],
         goes_well: Callable[[Understudy], Trial],
+        takes: int,
         may_wait: bool = False,
     ) -> bool:
         """Slow down in a way that succeeds in rehearsal; return whether there is one. What has not been
         rehearsed is done only if it may not wait."""
         person = self._person
-        deceleration, went, seen, known = self._decider.best(person, decelerations, slow, goes_well)
+        deceleration, went, seen, known = self._decider.best(person, decelerations, slow, goes_well, takes)
         does = went > 0.0 and (known or not may_wait)
         if does:
             since = person.follower.stops_since

@@ -371,6 +371,11 @@ class Human(Person):
         """How many ticks ahead what it rehearses is; None if it has nothing to rehearse."""
         return None if self._lookahead is None else self._lookahead.foresees()
 
+    @property
+    def needs(self) -> int:
+        """Ticks that the answer to what it rehearses takes at least; 0 if it rehearses nothing now."""
+        return 0 if self._lookahead is None else self._lookahead.needs
+
     def look_ahead(self, ticks: int) -> int:
         """Rehearse what it will have to decide, for up to ``ticks`` of its double; return how many it
         took."""

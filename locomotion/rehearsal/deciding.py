@@ -30,12 +30,13 @@ class Outcome(NamedTuple, Generic[_T]):
 
 
 class Question(NamedTuple):
-    """A decision to be made in ``state``; see `trials.Rehearsal`."""
+    """A decision to be made in ``state``; see `trials.Rehearsal`. ``takes``: ticks of a trial that holds."""
 
     state: HumanState
     choices: Sequence[Any]
     choose: Callable[[Chooser, Any], None]
     goes_well: Callable[[Understudy], Trial]
+    takes: int
 
     def is_also(self, other: Question) -> bool:
         """Whether the answer is the same."""
@@ -66,13 +67,14 @@ class Decider:
         choices: Sequence[_T],
         choose: Callable[[Chooser, _T], None],
         goes_well: Callable[[Understudy], Trial],
+        takes: int,
     ) -> Outcome[_T]:
-        """The best of ``choices``, see `trials.Rehearsal`; without rehearsals the first one, assumed to
-        succeed. Recorded ticks are kept, so that they need not be simulated again."""
+        """The best of ``choices``, see `Question`; without rehearsals the first one, assumed to succeed.
+        Recorded ticks are kept, so that they need not be simulated again."""
         if self.answer is None:
             self.undecided = True
             return Outcome(choices[0], 1.0, [], known=False)
-        return self.answer(Question(body.save_state(), choices, choose, goes_well))
+        return self.answer(Question(body.save_state(), choices, choose, goes_well, takes))
 
 
 class _Undecided(Exception):

@@ -140,6 +140,12 @@ class Lookahead:
         self._answers[:] = [answer for answer in self._answers if answer[0].state.ticks >= now]
 
     @property
+    def needs(self) -> int:
+        """Ticks that it takes at least until what the double rehearses is answered; 0 if it rehearses
+        nothing."""
+        return 0 if self._rehearsal is None else self._rehearsal.needs
+
+    @property
     def ahead(self) -> int | None:
         """Ticks that the double is ahead, if it has something to do; else None."""
         now = self._person.ticks
@@ -202,6 +208,7 @@ class Lookahead:
                 self._rehearsal = rehearsal = Rehearsal(question, self._most)
                 for _ in rehearsal.run(double):
                     self._total += 1
+                    rehearsal.tried_for += 1
                     yield
                 self._answers.append((question, rehearsal.outcome))
                 self._rehearsal = None

@@ -18,19 +18,26 @@ class _Rehearses(Protocol):
 
     @property
     def foresees(self) -> int | None: ...
+    @property
+    def needs(self) -> int: ...
 
 
 def allot(people: Sequence[_Rehearses], ticks: int) -> list[int]:
     """How many of ``ticks`` each of ``people`` may rehearse: those first who have to decide soonest,
-    `PER_TICK` each at most. Among equals the first is another one in each tick, so nobody goes short."""
+    `PER_TICK` each at most. Who cannot have its answer in time beside them rehearses nothing. Among equals
+    the first is another one in each tick, so nobody goes short."""
     turn = people[0].ticks if people else 0
     waiting = [
         (ahead, (number - turn) % len(people), number)
         for number, each in enumerate(people)
         if (ahead := each.foresees) is not None
     ]
-    allotted = [0] * len(people)
-    for _, _, number in sorted(waiting):
-        allotted[number] = min(ticks, PER_TICK)
-        ticks -= allotted[number]
+    allotted, left, promised = [0] * len(people), ticks, 0
+    for ahead, _, number in sorted(waiting):
+        needs = people[number].needs
+        if needs > min(PER_TICK * ahead, ticks * ahead - promised):
+            continue
+        promised += needs
+        allotted[number] = min(left, PER_TICK)
+        left -= allotted[number]
     return allotted

@@ -34,17 +34,21 @@ __all__ = [
     "ENDINGS",
     "HOLDS",
     "REHEARSALS",
+    "RESTS_IN",
     "RUN_UPS",
     "SETTING_OFF",
     "SLOWINGS",
     "STAYS_UP",
     "STEPPINGS",
+    "STEPS_IN",
+    "WALKS_IN",
     "ComesToRest",
     "Rehearsal",
     "StepsOn",
     "at_once",
     "balk",
     "clears",
+    "clears_in",
     "first_good",
     "vary_run_up",
     "walks_on",
@@ -63,6 +67,7 @@ _ASKEW = 0.5  # [rad] off its heading up to which it loses little time when it g
 _SLOWEST = 0.1  # [m/s] of one that brakes
 _FAILED = ("fallen", "lost", "stuck")
 _LONGEST = round(12.0 / CONTROL_DT)
+_RUNS = 3.0  # [m/s] about
 _HEADWAY, _LITTLE = 0.4, 0.3  # share of the way that it is to make meanwhile; [m] less
 _RESTLESS = round(2.0 / CONTROL_DT)  # ticks after which it must not step where it is to stand
 _STEPPING = round(3.0 / CONTROL_DT)  # ticks that it must stay up on uneven ground
@@ -104,6 +109,13 @@ STAYS_UP = 0.5
 """Least score of a step after which a person stays up."""
 HOLDS = 0.5
 """Least score at which a run-up is begun and not aborted."""
+STEPS_IN, RESTS_IN, WALKS_IN = _STEPPING, round(2.0 / CONTROL_DT), _SETTLED + round(1.0 / CONTROL_DT)
+"""Ticks of a trial that holds: of a step on uneven ground, of braking, of slowing down to a walk."""
+
+
+def clears_in(away: float) -> int:
+    """The same for an obstacle ``away`` [m] ahead."""
+    return round(away / _RUNS / CONTROL_DT) + _RUNNING
 
 
 def at_once(task: Generator[None, None, _R]) -> _R:
@@ -122,19 +134,20 @@ class Rehearsal(Generic[_T]):
     Attributes:
       question: whose first ``most`` choices are tried.
       outcome: of the best choice so far.
+      tried_for: ticks of the present trial, which who runs it counts.
     """
 
     def __init__(self, question: Question, most: int | None = None) -> None:
         self.question = question
         self._choices = question.choices[:most]
-        self._trying = self._choices[0]
+        self._trying, self.tried_for = self._choices[0], 0
         self.outcome: Outcome[_T] = Outcome(self._trying, 0.0, [])
 
     def run(self, understudy: Understudy) -> Generator[None, None, Outcome[_T]]:
         """Advance the ``understudy`` tick by tick; returns the outcome."""
-        state, _, choose, goes_well = self.question
+        state, _, choose, goes_well, _ = self.question
         for choice in self._choices:
-            self._trying = choice
+            self._trying, self.tried_for = choice, 0
             understudy.restore_state(state)
             understudy.data.xfrc_applied[:] = 0.0
             choose(understudy, choice)
@@ -144,6 +157,11 @@ class Rehearsal(Generic[_T]):
             if went >= 1.0:
                 break
         return self.outcome
+
+    @property
+    def needs(self) -> int:
+        """Ticks until there is an answer, if what is being tried holds: at least 1."""
+        return max(self.question.takes - self.tried_for, 1)
 
     @property
     def so_far(self) -> Outcome[_T]:
@@ -160,7 +178,7 @@ def first_good(
     goes_well: Callable[[Understudy], Trial],
 ) -> Generator[None, None, Outcome[_T]]:
     """The best of ``choices`` in ``state``, see `Rehearsal`; advances the ``understudy`` tick by tick."""
-    return Rehearsal(Question(state, choices, choose, goes_well)).run(understudy)
+    return Rehearsal(Question(state, choices, choose, goes_well, 0)).run(understudy)
 
 
 def clears(body: Understudy, looks_on: bool = True, notes: bool = False) -> Trial:
@@ -251,7 +269,7 @@ def slows_down_in_time(body: Understudy, state: HumanState) -> Generator[None, N
         elif question.choices not in (ENDINGS, SLOWINGS, BRAKINGS) or len(answers) == _ASKED:
             return False
         else:
-            _, choices, choose, goes_well = question
+            _, choices, choose, goes_well, _ = question
             outcome = yield from first_good(question.state, body, choices[:_LOOKED_AT], choose, goes_well)
             if outcome.went > 0.0:
                 return True

@@ -34,7 +34,7 @@ class Counter(Chooser):
     def tick(self) -> None:
         self.ticks += 1
         if self.ticks % 3 == 0:
-            outcome = self.decider.best(self, CHOICES, Chooser.vary_step, goes_well)
+            outcome = self.decider.best(self, CHOICES, Chooser.vary_step, goes_well, 1)
             self.vary_step(outcome.choice)
 
 
@@ -92,7 +92,7 @@ def test_another_error_of_the_double_is_not_taken_for_a_question():
 def test_states_that_differ_in_one_number_are_other_questions():
     body = Counter()
     state = body.save_state()
-    one = Question(state, CHOICES, Chooser.vary_step, goes_well)
+    one = Question(state, CHOICES, Chooser.vary_step, goes_well, 1)
     numbers = state.numbers.copy()
     numbers[0] = np.nextafter(numbers[0], 1e9)
     assert not one.is_also(one._replace(state=state._replace(numbers=numbers)))

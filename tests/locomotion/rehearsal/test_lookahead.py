@@ -412,3 +412,19 @@ def test_at_the_end_of_its_way_it_has_had_time_for_several_ways_of_slowing_down(
     send(human, 30.0)
     slowing = [human.on_feet.slowing for _ in goes_on(human, 800)]
     assert next(filter(None, slowing)) == SLOWINGS[2]
+
+
+def test_it_says_how_long_the_answer_to_what_it_rehearses_takes_at_least():
+    human = hurried()
+    assert human.needs == 0
+    while not human.needs:
+        human.tick()
+        human.look_ahead(PER_TICK)
+    needs = human.needs
+    human.tick()
+    assert human.look_ahead(7) == 7 and human.needs == needs - 7
+    while human.needs:
+        human.tick()
+        human.look_ahead(PER_TICK)
+        assert 0 <= human.needs <= needs + PER_TICK
+    assert human.foresees is None or human.foresees > 0  # it knows, and looks further

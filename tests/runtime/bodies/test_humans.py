@@ -31,8 +31,8 @@ def test_people_rehearse_as_much_as_their_world_says(graph, monkeypatch):
         human = world.spawn("human", (0.0, 0.0, 0.0)).human
         seen = []
         choose = human.decider.best
-        human.decider.best = lambda body, choices, do, goes, seen=seen, choose=choose: choose(
-            body, choices, lambda body, choice: (seen.append(choice), do(body, choice)), fails
+        human.decider.best = lambda body, choices, do, goes, takes, seen=seen, choose=choose: choose(
+            body, choices, lambda body, choice: (seen.append(choice), do(body, choice)), fails, takes
         )
         world.agents["human1"].go_to((20.0, 0.0, 0.4), speed=3.0)
         while not seen and world.time < 12.0:

@@ -14,6 +14,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from navmesh.disjoint_sets import root
 from navmesh.surface.clearance_field import centre_of
+from navmesh.surface.columns import column_of
 from navmesh.surface.recall import nearest_of, nearly_nearest_of
 from navmesh.surface.storeys import linked, over
 from navmesh.surface.surface import Surface
@@ -100,7 +101,7 @@ def _paint(net, throats, part, row, parent):
     for t in range(throats.size):
         x, y = centre_of(net, throats[t])
         reach = net.clearance[throats[t]] + 0.5 * net.cell
-        column = np.int64(net.cell_column[throats[t]])
+        column = column_of(net, throats[t])
         queue[0, 0], queue[0, 1], queue[0, 2] = throats[t], column // net.ny, column % net.ny
         size, head = 1, 0
         covered = _cover(throats[t], t, part, row, by, seen, parent, covered)[1]

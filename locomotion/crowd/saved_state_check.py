@@ -70,7 +70,7 @@ def check_walker(state: WalkerState, graph: navmesh.NodeGraph) -> None:
         raise LocomotionError(f"a walker is in cell {cell} of {len(surface)}, in mode {row[at.MODE]:g}")
     if cell >= 0:
         h, ny = surface.resolution, surface.shape[1]
-        column = int(surface.cell_column[cell])
+        column = int(surface.columns(np.array([cell]))[0])
         away = max(abs(row[at.X] - (column // ny + 0.5) * h), abs(row[at.Y] - (column % ny + 0.5) * h))
         check_number("the distance of a walker from its cell", away, 0.0, h)
     if row[at.ROUTE_COUNT] != len(route):

@@ -6,6 +6,7 @@ import numpy as np
 
 from navmesh.areas.areas import PARTS
 from navmesh.surface.clearance_field import same_place, slope_at
+from navmesh.surface.columns import column_of
 from navmesh.surface.storeys import linked
 from surefoot.kernels import kernel
 
@@ -23,7 +24,7 @@ def _part_of(at):
 def area_at(net, areas, k, x, y):
     """The area of (x, y), at most a cell away from cell ``k``; -1 where no floor is linked to it there."""
     h = net.cell
-    ix, iy = net.cell_column[k] // net.ny, net.cell_column[k] % net.ny
+    ix, iy = divmod(column_of(net, k), net.ny)
     jx, jy = int(x // h), int(y // h)
     other = np.int64(k)
     if jx != ix:
@@ -90,8 +91,9 @@ def price(net, areas, part, weight, k, ax, ay, bx, by, target, most):
     if length < 1e-12:
         return 0.0 if same_place(net, k, target) else np.inf
     ux, uy = dx / length, dy / length
-    ix = net.cell_column[k] // net.ny
-    iy = net.cell_column[k] - ix * net.ny
+    column = column_of(net, k)
+    ix = column // net.ny
+    iy = column - ix * net.ny
     way_x, turn_x = (0, 1) if dx > 0.0 else (2, -1)
     way_y, turn_y = (1, 1) if dy > 0.0 else (3, -1)
     next_x = ((ix + (turn_x > 0)) * h - ax) / ux if ux != 0.0 else 1e300

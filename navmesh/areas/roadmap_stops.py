@@ -7,6 +7,7 @@ from navmesh.areas.areas import PARTS, Areas
 from navmesh.areas.line_costs import area_at
 from navmesh.graph.snapping import node_at
 from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, same_place, walk
+from navmesh.surface.columns import column_of
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["members", "other_stops", "portal_stops"]
@@ -131,7 +132,7 @@ def _border_candidates(net, areas, radius):
     for k in range(areas.row.size):
         if areas.row[k] < 0 or net.clearance[k] < radius - 0.7072 * h:
             continue
-        ix, iy = net.cell_column[k] // net.ny, net.cell_column[k] % net.ny
+        ix, iy = divmod(column_of(net, k), net.ny)
         for i in range(PARTS * PARTS):
             x = (ix + (i // PARTS + 0.5) / PARTS) * h
             y = (iy + (i % PARTS + 0.5) / PARTS) * h

@@ -41,7 +41,7 @@ class Earlier:
 
     known: tuple[np.ndarray, ...]
     column_start: np.ndarray
-    cell_column: np.ndarray
+    milestone: np.ndarray
     """Those of the surface then."""
     changes: Changes
 
@@ -60,7 +60,7 @@ def carry_over(before: "NodeGraph", after: "NodeGraph", changes: Changes) -> Non
         for radius in tuple(known):
             values = known.get(radius)
             if values is not None:
-                found[radius] = Earlier(values, surface.column_start, surface.cell_column, changes)
+                found[radius] = Earlier(values, surface.column_start, surface.milestone, changes)
         after.cache[_waiting(kind)] = dict(list(found.items())[-KEPT:])
 
 

@@ -33,7 +33,7 @@ NET = BundleType(
     nx=int64,
     ny=int64,
     column_start=int32[::1],
-    cell_column=int32[::1],
+    milestone=int32[::1],
     floor_shift=int32[::1],
     floor_height=float64[::1],
     floor_slope=int32[::1],
@@ -43,7 +43,8 @@ NET = BundleType(
     choice=uint8[::1],
     nearest=float64[:, ::1],
     source=int32[::1],
-    blocker_start=int32[::1],
+    list_cell=int32[::1],
+    list_start=int32[::1],
     blocker=float64[:, ::1],
     label=int32[::1],
     nodes=rows(_NODE),
@@ -54,11 +55,11 @@ NET = BundleType(
 """The surface and the graph.
 
 cell: side of a grid square [m]; nx, ny: columns. The arrays of `Surface` themselves: column_start
-(nx*ny + 1,) and, for each cell, cell_column, storey (4), clearance, choice, source; blocker_start (n + 1,),
-blocker (k, 4). nearest (n, 2) is there if zones change it, else (0, 2), see
-`navmesh.surface.recall.nearest_of`. Height and slope of a cell are found by floor_shift, floor_height,
-floor_slope and slopes, see `navmesh.surface.floor_store.height_of`. Of `NodeGraph`: label of each cell;
-position (3), node_radius and node_cell of each node; edge_start (m + 1,), edge_target (e,).
+(nx*ny + 1,), milestone (⌈n / 32⌉ + 1,), see `navmesh.surface.columns`, and, for each cell, storey (4),
+clearance, choice, source; list_cell (l,), list_start (l + 1,), blocker (k, 4); nearest (n, 2) if zones change
+it, else (0, 2), see `navmesh.surface.recall.nearest_of`. Height and slope of a cell are found by floor_shift,
+floor_height, floor_slope and slopes, see `navmesh.surface.floor_store.height_of`. Of `NodeGraph`: label of
+each cell; position (3), node_radius and node_cell of each node; edge_start (m + 1,), edge_target (e,).
 """
 
 _NO_SLOTS = np.empty(0, np.int32)
@@ -182,7 +183,7 @@ def _net(graph: "NodeGraph") -> Any:
         nx=surface.shape[0],
         ny=surface.shape[1],
         column_start=surface.column_start,
-        cell_column=surface.cell_column,
+        milestone=surface.milestone,
         floor_shift=surface.floor.shift(surface.column_start),
         floor_height=surface.floor.height,
         floor_slope=surface.floor.slope,
@@ -192,7 +193,8 @@ def _net(graph: "NodeGraph") -> Any:
         choice=surface.choice,
         nearest=surface.kept_nearest,
         source=surface.source,
-        blocker_start=surface.blocker_start,
+        list_cell=surface.list_cell,
+        list_start=surface.list_start,
         blocker=surface.blocker,
         label=graph.label,
         nodes=_table(_NODE, position=graph.positions - surface.origin, node_radius=graph.radii),

@@ -13,6 +13,7 @@ from navmesh.obstacles.free_length import cells_of, room
 from navmesh.obstacles.kinds import CROSSINGS, kind_of
 from navmesh.obstacles.obstacles import Obstacles
 from navmesh.rules import WalkRules
+from navmesh.surface.columns import column_of
 from navmesh.surface.floor_store import gradient_of, height_of
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
@@ -141,7 +142,7 @@ def _place(cells, clearance, x, y, z, dx, dy, slope, longest, lateral, point):
     while away >= _SHORTEST - 1e-9:
         _, _, first, k = room(cells, x, y, z, dx, dy, slope, away)
         if first >= 0:
-            column = cells.cell_column[k]
+            column = column_of(cells, k)
             ix = column // cells.ny
             ux = x + away * dx - (ix + 0.5) * size
             uy = y + away * dy - (column - ix * cells.ny + 0.5) * size

@@ -95,13 +95,13 @@ def _choose_in(area: np.ndarray, old: Nodes, before: Surface, surface: Surface, 
     """Choose nodes anew in the columns of ``area``."""
     window, side = tuple(area.tolist()), surface.resolution
     near = _near(old.place, side, area)
-    in_area = inside_of(before.cell_column[old.maker[near]], window, surface.shape[1])
+    in_area = inside_of(before.columns(old.maker[near]), window, surface.shape[1])
     there, given = near[in_area], near[~in_area]
     field, where = cells_in(
         surface, tuple(hull(area, boxes_of(old.place[given], side), _SEEN, surface).tolist())
     )
     order = order_by_clearance(field.clearance, grain_of(surface))
-    order = order[inside_of(surface.cell_column[where[order]], window, surface.shape[1])]
+    order = order[inside_of(surface.columns(where[order]), window, surface.shape[1])]
     given_maker = moved_cells(old.maker[given], before, surface, window)
     at = _places_among(where[order], given_maker, surface.clearance, grain_of(surface))
     order = np.insert(order, at, -1 - np.arange(len(given), dtype=np.int32))
@@ -149,7 +149,7 @@ def _numbered(
     local[-1] = -1
     local[:-1][~chosen.made] = number[chosen.was[~chosen.made]]
     local[made] = to
-    within = inside_of(surface.cell_column[chosen.where], window, surface.shape[1])
+    within = inside_of(surface.columns(chosen.where), window, surface.shape[1])
     start, _ = columns_in(surface.column_start, area, surface.shape[1])
     patch = Patch(surface.resolution, *area[:2].tolist(), *(area[2:] - area[:2]).tolist())
     runs, count = runs_of(before.column_start, start, window, patch, surface.shape[1])
@@ -181,7 +181,7 @@ def _found_again(old: tuple, new: tuple, names: np.ndarray) -> np.ndarray:
 
 def _spots(cells: np.ndarray, surface: Surface) -> np.ndarray:
     """(k,) int64: column and storey of ``cells``, which say which they are whatever is elsewhere."""
-    columns = surface.cell_column[cells]
+    columns = surface.columns(cells)
     return (columns.astype(np.int64) << 16) | (cells - surface.column_start[columns])
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from navmesh.surface.clearance_field import centre_of
+from navmesh.surface.columns import column_of
 from navmesh.surface.ridges import half_width, middle_beside
 from navmesh.surface.storeys import over
 from navmesh.surface.surface import Surface
@@ -71,7 +72,7 @@ def _claim(field, label, power, node, k, off_x, off_y, radius):
     resolution = field.cell
     for d in range(0, 3, 2):
         step, beside = (resolution, field.ny) if d == 0 else (-resolution, -field.ny)
-        column = np.int64(field.cell_column[k])
+        column = column_of(field, k)
         spine, dx = np.int64(k), off_x
         if d == 2:
             spine, column, dx = over(field, k, column, 2), column + beside, off_x - resolution

@@ -7,7 +7,7 @@ them would, and gives the same bits as the build (`navmesh.surface.build.surface
 
 import numpy as np
 
-from navmesh.surface.build import Cells, Grid, surface_of
+from navmesh.surface.build import Cells, Grid, lists_of, surface_of
 from navmesh.surface.floor_store import pack_floors
 from navmesh.surface.storeys import APART, MOST
 from navmesh.surface.surface import Surface
@@ -68,7 +68,7 @@ def unpack_surface(arrays: dict[str, np.ndarray], resolution: float, shape: tupl
     if odd >= 0:
         raise ValueError(f"surface_storey[{odd}] leads to no cell beside it, or to one that another leads to")
     floor = pack_floors(start, arrays["height"], arrays["gradient"])
-    found = Cells(start, column, storey, _starts(lists), arrays["blocker"], floor)
+    found = Cells(start, storey, *lists_of(lists), arrays["blocker"], floor)
     surface = surface_of(found, Grid(arrays["origin"], resolution, shape))
     ix = column // np.int32(ny)
     iy = column - ix * np.int32(ny)

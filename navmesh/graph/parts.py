@@ -133,7 +133,7 @@ def parts_in_tiles(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """What `parts_of_tiles` gave with one ``part`` more, in the tiles of these ``cells`` (k,)."""
     start, parts, spans = tiles
-    ix, iy = np.divmod(surface.cell_column[cells], surface.shape[1])
+    ix, iy = np.divmod(surface.columns(cells), surface.shape[1])
     more = ix // TILE * ((surface.shape[1] + TILE - 1) // TILE) + iy // TILE
     rise = 0.5 * surface.resolution * np.abs(surface.gradients(cells)).sum(axis=1)
     height = surface.heights(cells)

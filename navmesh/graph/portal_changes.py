@@ -11,6 +11,7 @@ import numpy as np
 from navmesh.graph.carrying import Earlier, earlier_of
 from navmesh.graph.kernel_arrays import net_of
 from navmesh.graph.portals import BENDS, fill_portal, is_open_to, open_portals
+from navmesh.surface.columns import find_column
 from surefoot.kernels import allocating_kernel, kernel
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def _renewed(
     start, doors, lens, block = earlier.known
     windows = np.array(earlier.changes.windows, np.int64).reshape(-1, 4)
     return _renew(
-        net, *edges, radius, earlier.changes.number, windows, earlier.column_start, earlier.cell_column,
+        net, *edges, radius, earlier.changes.number, windows, earlier.column_start, earlier.milestone,
         start, doors["target"], doors["portal"], doors["portal_cell"], lens, block,
     )  # fmt: skip
 
@@ -56,7 +57,7 @@ def _is_near(net, windows, i, j, radius):
 
 @allocating_kernel(error_model="numpy")
 def _renew(
-    net, edge_width, edge_cells, edge_gate, radius, number, windows, old_column_start, old_column,
+    net, edge_width, edge_cells, edge_gate, radius, number, windows, old_column_start, old_milestone,
     old_start, old_target, old_portal, old_cells, old_lens, old_block,
 ):  # fmt: skip
     nodes = net.node_radius.size
@@ -111,7 +112,7 @@ def _renew(
                     if cell >= beyond:
                         cell += shift
                     elif cell >= first:
-                        column = old_column[cell]
+                        column = find_column(old_column_start, old_milestone, np.int64(cell))
                         cell += net.column_start[column] - old_column_start[column]
                     cells[count, side] = cell
             count += 1

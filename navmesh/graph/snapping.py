@@ -10,6 +10,7 @@ from math import sqrt
 import numpy as np
 
 from navmesh.surface.clearance_field import centre_of, floor_at, gap_at, same_place, walk
+from navmesh.surface.columns import column_of
 from navmesh.surface.storeys import linked
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -31,8 +32,8 @@ def roomy_cell(net, k, x, y, radius, reach):
     side = 2 * rings + 1
     seen = np.zeros((side, side), np.uint8)
     queue = np.empty(side * side, np.int32)
-    ix0 = net.cell_column[k] // net.ny - rings
-    iy0 = net.cell_column[k] % net.ny - rings
+    column = column_of(net, k)
+    ix0, iy0 = column // net.ny - rings, column % net.ny - rings
     queue[0] = k
     seen[rings, rings] = 1
     size = 1
@@ -42,7 +43,7 @@ def roomy_cell(net, k, x, y, radius, reach):
     while head < size:
         at = queue[head]
         head += 1
-        column = net.cell_column[at]
+        column = column_of(net, at)
         ix = column // net.ny
         iy = column - ix * net.ny
         dx = (ix + 0.5) * h - x
@@ -55,8 +56,8 @@ def roomy_cell(net, k, x, y, radius, reach):
             other = linked(net, at, way)
             if other < 0:
                 continue
-            jx = net.cell_column[other] // net.ny - ix0
-            jy = net.cell_column[other] % net.ny - iy0
+            column = column_of(net, other)
+            jx, jy = column // net.ny - ix0, column % net.ny - iy0
             if 0 <= jx < side and 0 <= jy < side and not seen[jx, jy]:
                 seen[jx, jy] = 1
                 queue[size] = other

@@ -11,6 +11,7 @@ import numpy as np
 
 from navmesh.level.mesh_queries import crossed, lowest_above, surface_below
 from navmesh.level.raster import FLOOR, KIND
+from navmesh.surface.columns import column_of
 from navmesh.surface.floor_store import gradient_of, height_of
 from navmesh.surface.storeys import linked
 from navmesh.surface.surface import Surface
@@ -30,7 +31,7 @@ class CellArrays(NamedTuple):
     """A `Surface` as kernels take it; what it says of its fields holds for those of the same name."""
 
     column_start: np.ndarray
-    cell_column: np.ndarray
+    milestone: np.ndarray
     floor_shift: np.ndarray
     """(blocks,) int32, and the arrays of `navmesh.surface.floor_store.FloorStore`: see `height_of`."""
     floor_height: np.ndarray
@@ -47,7 +48,7 @@ def cells_of(surface: Surface) -> CellArrays:
     """What the kernels take as ``cells``."""
     floor = surface.floor
     return CellArrays(
-        surface.column_start, surface.cell_column, floor.shift(surface.column_start), floor.height,
+        surface.column_start, surface.milestone, floor.shift(surface.column_start), floor.height,
         floor.slope, floor.slopes, surface.storey, surface.resolution, *surface.shape,
     )  # fmt: skip
 
@@ -93,7 +94,7 @@ def march(cells, cell, x, y, dx, dy, limit):
     Returns (length, cell where it ends).
     """
     size = cells.size
-    column = cells.cell_column[cell]
+    column = column_of(cells, cell)
     ix = column // cells.ny
     iy = column - ix * cells.ny
     way_x = 1 if dx > 0.0 else -1
@@ -153,7 +154,7 @@ def free_length(grid, cells, x, y, z, dx, dy, slope, step, headroom, limit):
     if first < 0 or length >= limit:
         return length, ahead, first
     size = cells.size
-    column = cells.cell_column[last]
+    column = column_of(cells, last)
     ix = column // cells.ny
     ux = x - (ix + 0.5) * size
     uy = y - (column - ix * cells.ny + 0.5) * size

@@ -19,6 +19,7 @@ from navmesh.obstacles.kinds import ObstacleKind
 from navmesh.obstacles.obstacles import Obstacles, tag_names
 from navmesh.rules import WalkRules
 from navmesh.surface.build import Grid, find_cells, surface_of
+from navmesh.surface.columns import column_of
 from navmesh.surface.floor_store import gradient_of, height_of
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
@@ -104,7 +105,7 @@ def _edges_of_low_places(surface: Surface, low: Surface) -> tuple[np.ndarray, np
     cell, segment = cell[new], segment[new]
     across = segment[:, 2:] - segment[:, :2]
     length = np.hypot(across[:, 0], across[:, 1])
-    column = np.stack(np.divmod(surface.cell_column[cell], surface.shape[1]), axis=1)
+    column = np.stack(np.divmod(surface.columns(cell), surface.shape[1]), axis=1)
     middle = 0.5 * (segment[:, :2] + segment[:, 2:])
     away = (column + 0.5) * surface.resolution - middle
     side = np.sign(across[:, 0] * away[:, 1] - across[:, 1] * away[:, 0])
@@ -137,7 +138,7 @@ def _listed(surface: Surface) -> np.ndarray:
     place. The top of a beam ends where the way under it does, but not at the same height."""
     cell = np.repeat(np.arange(len(surface)), np.diff(surface.blocker_start))
     values = np.column_stack((surface.blocker, surface.heights(cell))) / _SAME_PLACE
-    return np.column_stack((np.rint(values).astype(np.int64), surface.cell_column[cell]))
+    return np.column_stack((np.rint(values).astype(np.int64), surface.columns(cell)))
 
 
 def _among(rows: np.ndarray, others: np.ndarray) -> np.ndarray:
@@ -221,9 +222,9 @@ def _free_height(grid, x, y, z, dx, dy, depth, rise, step, least, headroom):
 @allocating_kernel
 def _upright_cells(tall, low):
     """The cell of ``tall`` that each of ``low`` is, or -1 where one has to bend down: (n,) int32."""
-    upright = np.full(low.cell_column.size, -1, np.int32)
-    for c in range(low.cell_column.size):
-        column = low.cell_column[c]
+    upright = np.full(low.storey.shape[0], -1, np.int32)
+    for c in range(upright.size):
+        column = column_of(low, c)
         for k in range(tall.column_start[column], tall.column_start[column + 1]):
             if abs(height_of(tall, k) - height_of(low, c)) < _SAME_PLACE:
                 upright[c] = k
@@ -268,7 +269,7 @@ def _measure(grid, tall, low, blocker_start, blocker, edge, outward, floor, slop
         through, _, _, _ = room(low, x, y, z, dx, dy, slope, depth + _BEHIND)
         if through < depth + _BEHIND:
             continue
-        column = tall.cell_column[cell]
+        column = column_of(tall, cell)
         ix = column // tall.ny
         ux = x + depth * dx - (ix + 0.5) * tall.size
         uy = y + depth * dy - (column - ix * tall.ny + 0.5) * tall.size

@@ -7,6 +7,7 @@ from navmesh.routes.heap import push, take_first
 from navmesh.routes.leading_round import lead_round, push_off
 from navmesh.routes.walked_line import append_corner
 from navmesh.surface.clearance_field import centre_of, gap_at, walk
+from navmesh.surface.columns import column_of
 from navmesh.surface.storeys import linked
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -37,8 +38,7 @@ def search_cells(net, scratch, start, goal, radius):
     keys = np.empty(256, np.float64)
     items = np.empty(256, np.int32)
     h = net.cell
-    goal_x = net.cell_column[goal] // net.ny
-    goal_y = net.cell_column[goal] % net.ny
+    goal_x, goal_y = divmod(column_of(net, goal), net.ny)
     seen[start] = stamp
     best[start] = 0.0
     found = False
@@ -68,7 +68,7 @@ def search_cells(net, scratch, start, goal, radius):
                 if size == keys.size:
                     keys = np.concatenate((keys, np.empty_like(keys)))
                     items = np.concatenate((items, np.empty_like(items)))
-                column = net.cell_column[other]
+                column = column_of(net, other)
                 steps = abs(column // net.ny - goal_x) + abs(column % net.ny - goal_y)
                 push(keys, items, size, cost + h * steps, other)
                 size += 1

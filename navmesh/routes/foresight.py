@@ -9,6 +9,7 @@ from math import sqrt
 import numpy as np
 
 from navmesh.surface.clearance_field import fetch_cell
+from navmesh.surface.columns import about_column, column_of
 from surefoot.kernels import kernel
 from surefoot.kernels.fetching import fetch
 
@@ -59,17 +60,17 @@ def fetch_corners(net, doors, edges, at, count):
     for i in range(1, count - 1):
         k = _cell_of(doors, edges, at[i])
         fetch_cell(net, k)
-        fetch(net.cell_column, k)
+        fetch(net.column_start, about_column(net, k))
     for i in range(1, count - 1):
         k = _cell_of(doors, edges, at[i])
-        column = np.int64(net.cell_column[k])
+        column = column_of(net, k)
         fetch(net.column_start, column - net.ny)
         fetch(net.column_start, column)
         fetch(net.column_start, column + net.ny)
-        fetch(net.blocker_start, np.int64(net.source[k]))
+        fetch(net.list_start, np.int64(net.source[k]))
     for i in range(1, count - 1):
         source = np.int64(net.source[_cell_of(doors, edges, at[i])])
         if source >= 0:
-            first = np.int64(net.blocker_start[source])
+            first = np.int64(net.list_start[source])
             fetch(net.blocker, first)
             fetch(net.blocker, first + 2)

@@ -282,12 +282,12 @@ def nearest_in_list(blocker, first, last, x, y):
 
 
 @allocating_kernel(error_model="numpy")
-def nearest_blockers(blocker_start, blocker, cell_column, patch):
+def nearest_blockers(list_cell, list_start, blocker, cell_column, patch):
     """The vector from each cell's centre to the nearest place in its own list: (n, 2) float64, inf without
     one."""
     nearest = np.full((cell_column.shape[0], 2), np.inf)
-    for c in range(cell_column.shape[0]):
-        if blocker_start[c] < blocker_start[c + 1]:
-            x, y = middle_of(patch, cell_column[c])
-            nearest[c] = nearest_in_list(blocker, blocker_start[c], blocker_start[c + 1], x, y)
+    for i in range(list_cell.shape[0]):
+        c = list_cell[i]
+        x, y = middle_of(patch, cell_column[c])
+        nearest[c] = nearest_in_list(blocker, list_start[i], list_start[i + 1], x, y)
     return nearest

@@ -17,6 +17,7 @@ from navmesh.level import raster
 from navmesh.level.terrain import Terrain
 from navmesh.rules import WalkRules
 from navmesh.surface import blockers, clearance, floors, walls
+from navmesh.surface.columns import columns_of_all, milestones
 from navmesh.surface.floor_store import FloorStore, pack_floors
 from navmesh.surface.storeys import check_storeys, storeys_of
 from navmesh.surface.surface import Surface
@@ -33,6 +34,7 @@ __all__ = [
     "find_cells",
     "found_cells",
     "lay_grid",
+    "lists_of",
     "patch_around",
     "reach_of",
     "surface_of",
@@ -68,9 +70,9 @@ class LinkedCells:
     """Cells, their links and lists of blockers; arrays as in `Surface`."""
 
     column_start: np.ndarray
-    cell_column: np.ndarray
     storey: np.ndarray
-    blocker_start: np.ndarray
+    list_cell: np.ndarray
+    list_start: np.ndarray
     blocker: np.ndarray
 
 
@@ -82,7 +84,7 @@ class Cells(LinkedCells):
 
 
 class FoundCells(NamedTuple):
-    """Cells as they are found; arrays as in `Surface`, their links (n, 4) int32 as numbers of cells or -1."""
+    """Cells as they are found; arrays and properties as in `Surface`, links as numbers of cells or -1."""
 
     column_start: np.ndarray
     cell_column: np.ndarray
@@ -93,12 +95,18 @@ class FoundCells(NamedTuple):
     blocker: np.ndarray
 
     def packed(self) -> Cells:
-        """The same with their floors packed."""
+        """The same with their floors packed, and lists only of the cells that have one."""
         return Cells(
-            self.column_start, self.cell_column, storeys_of(self.column_start, self.cell_column, self.link),
-            self.blocker_start, self.blocker,
+            self.column_start, storeys_of(self.column_start, self.cell_column, self.link),
+            *lists_of(np.diff(self.blocker_start)), self.blocker,
             pack_floors(self.column_start, self.height, self.gradient),
         )  # fmt: skip
+
+
+def lists_of(count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """`list_cell` (l,) and `list_start` (l + 1,) of cells with so many blockers each (n,)."""
+    cell = np.flatnonzero(count).astype(np.int32)
+    return cell, np.concatenate([[0], np.cumsum(count[cell])]).astype(np.int32)
 
 
 def lay_grid(bounds: np.ndarray, rules: WalkRules, name: str) -> Grid:
@@ -185,7 +193,7 @@ def found_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window |
 
 def check_floor(cells: Cells | FoundCells, terrain: Terrain, rules: WalkRules) -> None:
     """Raise `NoFloorError` when there are no ``cells``."""
-    if not len(cells.cell_column):
+    if not cells.column_start[-1]:
         raise NoFloorError(
             f"{terrain.name}: nothing to walk on: no face is within {math.degrees(rules.max_slope):g}° "
             f"of level, faces up, has {rules.headroom:g} m free above it and is not inside of solids (closed "
@@ -196,26 +204,30 @@ def check_floor(cells: Cells | FoundCells, terrain: Terrain, rules: WalkRules) -
 
 def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> Surface:
     """The surface that ``cells`` make up."""
-    start, h, (nx, ny) = cells.blocker_start, grid.resolution, grid.shape
-    nearest = blockers.nearest_blockers(start, cells.blocker, cells.cell_column, whole_patch(grid))
-    source = np.arange(len(start) - 1, dtype=np.int32)
-    source[start[1:] == start[:-1]] = -1
+    h, (nx, ny) = grid.resolution, grid.shape
+    cell_column = columns_of_all(cells.column_start)
+    nearest = blockers.nearest_blockers(
+        cells.list_cell, cells.list_start, cells.blocker, cell_column, whole_patch(grid)
+    )
+    source = np.full(len(cell_column), -1, np.int32)
+    source[cells.list_cell] = np.arange(len(cells.list_cell), dtype=np.int32)
     free, choice = clearance.spread_clearance(
-        cells.column_start, cells.cell_column, cells.storey, nearest, source, h, nx, ny
+        cells.column_start, cell_column, cells.storey, nearest, source, h, nx, ny
     )
     surface = Surface(
         origin=grid.origin,
         resolution=grid.resolution,
         shape=grid.shape,
         column_start=cells.column_start,
-        cell_column=cells.cell_column,
+        milestone=milestones(cells.column_start),
         floor=cells.floor,
         storey=cells.storey,
         clearance=free,
         choice=choice,
         kept_nearest=np.empty((0, 2)),
         source=source,
-        blocker_start=start,
+        list_cell=cells.list_cell,
+        list_start=cells.list_start,
         blocker=cells.blocker,
     )
     parts = pairwise(shares(len(surface), threads))

@@ -120,7 +120,7 @@ def spread_clearance(column_start, cell_column, storey, nearest, source, resolut
     uint8.
 
     ``nearest`` (n, 2) float64 are the vectors of `navmesh.surface.blockers.nearest_blockers`, ``source`` (n,)
-    int32 the cell whose list of blockers the place is from, or -1. A cell takes from the cells behind it, the
+    int32 the list of blockers that the place is from, or -1. A cell takes from the cells behind it, the
     two diagonal ones included.
     """
     cells = storey.shape[0]

@@ -16,8 +16,9 @@ from navmesh.level.raster import Patch, middle_of
 from navmesh.surface.blockers import nearest_in_list
 from navmesh.surface.build import LinkedCells, Window
 from navmesh.surface.clearance import sweep
+from navmesh.surface.columns import column_of, columns_of_all
 from navmesh.surface.recall import came_from
-from navmesh.surface.splicing import splice, take
+from navmesh.surface.splicing import first_list, splice, take
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["Renewed", "renew_clearance"]
@@ -38,7 +39,7 @@ class Renewed:
     nearest: np.ndarray
     """(n, 2) float64, of these cells, before `settle_clearance`."""
     source: np.ndarray
-    """(n,) int32: a cell of the rectangle, -1, or -2 - c for the cell c of the whole before."""
+    """(n,) int32: a list of the rectangle, -1, or -2 - l for the list l of the whole before."""
     choice: np.ndarray
     """(n,) uint8."""
 
@@ -64,10 +65,11 @@ def renew_clearance(
         before, first = take(old, rectangle, whole.ny)
         shifted = tuple((np.array(window) - np.tile(outer[:2], 2)).tolist())
         at = Patch(around.side, around.left - patch.left, around.near - patch.near, around.nx, around.ny)
-        cells = splice(before, fresh, shifted, at, patch.ny)
+        cells, _ = splice(before, fresh, shifted, at, patch.ny)
         disturbed, nearest, source, chosen = _swept(
-            cells.column_start, cells.cell_column, cells.storey, cells.blocker_start, cells.blocker, patch,
-            field, whole, first, inner, _guarded(inner, edge), np.array(window),
+            cells.column_start, columns_of_all(cells.column_start), cells.storey, cells.list_cell,
+            cells.list_start, cells.blocker, patch, field, whole, first, inner, _guarded(inner, edge),
+            np.array(window),
         )  # fmt: skip
         if not disturbed.any():
             return Renewed(rectangle, cells, nearest, source, chosen)
@@ -89,7 +91,7 @@ def _guarded(inner: np.ndarray, edge: np.ndarray) -> np.ndarray:
 
 @allocating_kernel
 def _recalled(old, c, turn, patch, hops):
-    """What cell ``c`` knew after ``turn``: (x, y, the cell with the list, room for hops)."""
+    """What cell ``c`` knew after ``turn``: (x, y, the list that it is from or -1, room for hops)."""
     count = 0
     while True:
         other, turn, dx, dy = came_from(old, c, turn)
@@ -100,16 +102,19 @@ def _recalled(old, c, turn, patch, hops):
         hops[count, 0], hops[count, 1] = dx, dy
         count += 1
         c = other
-    if old.blocker_start[c] == old.blocker_start[c + 1]:
-        return np.inf, np.inf, -1, hops
-    mx, my = middle_of(patch, old.cell_column[c])
-    x, y = nearest_in_list(old.blocker, old.blocker_start[c], old.blocker_start[c + 1], mx, my)
+    own = np.int64(old.source[c])
+    if own < 0 or old.list_cell[own] != c:  # it has been told of something nearer since
+        own = first_list(old.list_cell, c)
+        if own == old.list_cell.shape[0] or old.list_cell[own] != c:
+            return np.inf, np.inf, np.int64(-1), hops
+    mx, my = middle_of(patch, column_of(old, c))
+    x, y = nearest_in_list(old.blocker, old.list_start[own], old.list_start[own + 1], mx, my)
     for k in range(count - 1, -1, -1):  # one by one, as they were added
         if hops[k, 0] != 0:
             x += hops[k, 0] * patch.side
         if hops[k, 1] != 0:
             y += hops[k, 1] * patch.side
-    return x, y, c, hops
+    return x, y, own, hops
 
 
 @kernel(inline="always")
@@ -122,7 +127,7 @@ def _inside(patch, column, window):
 
 @allocating_kernel
 def _swept(
-    column_start, cell_column, storey, blocker_start, blocker, patch,
+    column_start, cell_column, storey, list_cell, list_start, blocker, patch,
     old, whole, first, inner, guarded, window,
 ):  # fmt: skip
     """Both passes over the cells of ``patch``; those outside of ``inner`` know what they knew before.
@@ -137,7 +142,10 @@ def _swept(
     known, known_source = np.full((4, cells, 2), np.inf), np.full((4, cells), -1, np.int32)
     disturbed = np.zeros(4, np.bool_)
     hops = np.empty((64, 2), np.int64)
+    own = 0  # the first list that is of no cell before c
     for c in range(cells):
+        while own < list_cell.shape[0] and list_cell[own] < c:
+            own += 1
         column = cell_column[c]
         fixed[c] = not _inside(patch, column, inner)
         if fixed[c]:
@@ -146,13 +154,13 @@ def _swept(
             for turn in range(4):
                 x, y, origin, hops = _recalled(old, before, turn, whole, hops)
                 known[turn, c, 0], known[turn, c, 1] = x, y
-                known_source[turn, c] = _named(old, origin, column_start, patch, whole)
-                if origin >= 0 and _inside(whole, old.cell_column[origin], window):
+                known_source[turn, c] = _named(old, origin, column_start, list_cell, patch, whole)
+                if _is_of(old, origin, whole, window):
                     _mark(disturbed, patch, column, guarded, 0)
-        elif blocker_start[c] < blocker_start[c + 1]:
+        elif own < list_cell.shape[0] and list_cell[own] == c:
             mx, my = middle_of(patch, column)
-            x, y = nearest_in_list(blocker, blocker_start[c], blocker_start[c + 1], mx, my)
-            nearest[c, 0], nearest[c, 1], squared[c], source[c] = x, y, x * x + y * y, c
+            x, y = nearest_in_list(blocker, list_start[own], list_start[own + 1], mx, my)
+            nearest[c, 0], nearest[c, 1], squared[c], source[c] = x, y, x * x + y * y, own
     if disturbed.any():
         return disturbed, nearest, source, choice
     for turn in range(2):
@@ -168,24 +176,31 @@ def _swept(
         for turn in range(4):
             x, y, origin, hops = _recalled(old, before, turn, whole, hops)
             same = known[turn, c, 0] == x and known[turn, c, 1] == y
-            same &= known_source[turn, c] == _named(old, origin, column_start, patch, whole)
-            same &= not (origin >= 0 and _inside(whole, old.cell_column[origin], window))
+            same &= known_source[turn, c] == _named(old, origin, column_start, list_cell, patch, whole)
+            same &= not _is_of(old, origin, whole, window)
             if not same:
                 _mark(disturbed, patch, column, guarded, 1)
     return disturbed, nearest, source, choice
 
 
 @kernel
-def _named(old, origin, column_start, patch, whole):
-    """A cell of the whole before as `Renewed.source` has it; right where its column is not changed."""
+def _is_of(old, origin, whole, window):
+    """Whether list ``origin`` of the whole before, or -1, is of a cell in ``window``."""
+    return origin >= 0 and _inside(whole, column_of(old, old.list_cell[origin]), window)
+
+
+@kernel
+def _named(old, origin, column_start, list_cell, patch, whole):
+    """A list of the whole before as `Renewed.source` has it; right where its column is not changed."""
     if origin < 0:
         return -1
-    column = old.cell_column[origin]
+    cell = np.int64(old.list_cell[origin])
+    column = column_of(old, cell)
     ix = column // whole.ny - patch.left
     iy = column - column // whole.ny * whole.ny - patch.near
     if not (0 <= ix < patch.nx and 0 <= iy < patch.ny):
         return -2 - origin
-    return column_start[ix * patch.ny + iy] + origin - old.column_start[column]
+    return first_list(list_cell, column_start[ix * patch.ny + iy] + cell - old.column_start[column])
 
 
 @kernel(inline="always")

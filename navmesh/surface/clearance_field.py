@@ -12,7 +12,8 @@ from math import sqrt
 import numpy as np
 from numba import float64, int32, int64, uint8
 
-from navmesh.surface.floor_store import gradient_of, height_of
+from navmesh.surface.columns import column_of
+from navmesh.surface.floor_store import gradient_in, gradient_of, height_in
 from navmesh.surface.storeys import linked, over
 from surefoot.kernels import kernel
 from surefoot.kernels.bundles import BundleType
@@ -36,13 +37,14 @@ FIELD = BundleType(
     cell=float64,
     ny=int64,
     column_start=int32[::1],
-    cell_column=int32[::1],
+    milestone=int32[::1],
     storey=uint8[:, ::1],
     nearest=float64[:, ::1],
     clearance=float64[::1],
     choice=uint8[::1],
     source=int32[::1],
-    blocker_start=int32[::1],
+    list_cell=int32[::1],
+    list_start=int32[::1],
     blocker=float64[:, ::1],
 )
 """What is needed to measure distances before there is a graph; names as in `NET`."""
@@ -54,7 +56,7 @@ def _list_of(net, cell):
     source = np.int64(net.source[cell])
     if source < 0:
         return 0, 0
-    return np.int64(net.blocker_start[source]), np.int64(net.blocker_start[source + 1])
+    return np.int64(net.list_start[source]), np.int64(net.list_start[source + 1])
 
 
 @kernel(error_model="numpy", inline="always")
@@ -169,19 +171,24 @@ def stretch_gap(net, k, column, cx, cy, ax, ay, ux, uy, low, high, most):
 
 
 @kernel(error_model="numpy", inline="always")
-def centre_of(net, k):
-    """x and y of the centre of cell ``k``."""
-    column = net.cell_column[k]
+def middle_of_column(net, column):
+    """x and y of the centre of the square of ``column``."""
     ix = column // net.ny
     return (ix + 0.5) * net.cell, (column - ix * net.ny + 0.5) * net.cell
+
+
+@kernel(error_model="numpy", inline="always")
+def centre_of(net, k):
+    """x and y of the centre of cell ``k``."""
+    return middle_of_column(net, column_of(net, k))
 
 
 @kernel(error_model="numpy")
 def gap_at(net, k, x, y):
     """Distance [m] from (x, y), a point in cell ``k``, to the nearest place where walking ends, and that
     place."""
-    cx, cy = centre_of(net, k)
-    column = np.int64(net.cell_column[k])
+    column = column_of(net, k)
+    cx, cy = middle_of_column(net, column)
     here, side, other, corner = _around(net, k, column, 0 if x > cx else 2, 1 if y > cy else 3)
     square, qx, qy = np.inf, np.inf, np.inf
     for cell in (here, side, other, corner):
@@ -201,7 +208,7 @@ def cell_at(net, x, y, z):
     best = -1
     least = 1e300
     for k in range(net.column_start[column], net.column_start[column + 1]):
-        off = abs(height_of(net, k) - z)
+        off = abs(height_in(net, column, k) - z)
         if off < least:
             least = off
             best = k
@@ -235,9 +242,11 @@ def slope_at(net, k):
 @kernel(error_model="numpy")
 def floor_at(net, k, x, y):
     """Height [m] of the floor at (x, y) in cell ``k``: the plane through its centre."""
-    cx, cy = centre_of(net, k)
-    slope_x, slope_y = slope_at(net, k)
-    return height_of(net, k) + slope_x * (x - cx) + slope_y * (y - cy)
+    column = column_of(net, k)
+    cx, cy = middle_of_column(net, column)
+    slope_x, slope_y = gradient_in(net, column, k)
+    level = height_in(net, column, k)
+    return level + np.float32(slope_x) * (x - cx) + np.float32(slope_y) * (y - cy)
 
 
 @kernel(error_model="numpy", inline="always")
@@ -294,7 +303,7 @@ def walk(net, k, ax, ay, bx, by, radius, through):
     per_length = 1.0 / length if length > 0.0 else 0.0
     ux = dx * per_length
     uy = dy * per_length
-    column = net.cell_column[k]
+    column = column_of(net, k)
     ix = column // ny
     iy = column - ix * ny
     # the line crosses into the next square on a side at (ix + side) * h

@@ -11,9 +11,20 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from navmesh.level.raster import Patch
+from navmesh.surface.columns import column_of
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["SIDE", "FloorStore", "gradient_of", "height_of", "join_floors", "pack_floors", "renew_floors"]
+__all__ = [
+    "SIDE",
+    "FloorStore",
+    "gradient_in",
+    "gradient_of",
+    "height_in",
+    "height_of",
+    "join_floors",
+    "pack_floors",
+    "renew_floors",
+]
 
 _SHIFT = 5
 SIDE = 1 << _SHIFT
@@ -68,9 +79,9 @@ class FloorStore:
         """(blocks,) int32: what is to be added to a cell's number for its place in the pool."""
         return self.at - column_start[:-1:SIDE]
 
-    def places(self, column_start: np.ndarray, cell_column: np.ndarray, cells: np.ndarray) -> np.ndarray:
-        """Where in the pool ``cells`` (k,) are."""
-        return cells + self.shift(column_start)[cell_column[cells] >> _SHIFT]
+    def places(self, column_start: np.ndarray, columns: np.ndarray, cells: np.ndarray) -> np.ndarray:
+        """Where in the pool ``cells`` (k,) of ``columns`` (k,) are."""
+        return cells + self.shift(column_start)[columns >> _SHIFT]
 
     def unpacked(self, column_start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The height (n,) and the gradient (n, 2) of all cells."""
@@ -81,16 +92,28 @@ class FloorStore:
 
 
 @kernel(error_model="numpy", inline="always")
+def height_in(net, column, k):
+    """Height [m] of the floor at the centre of cell ``k`` of ``column``."""
+    return net.floor_height[k + net.floor_shift[column >> _SHIFT]]
+
+
+@kernel(error_model="numpy", inline="always")
 def height_of(net, k):
-    """Height [m] of the floor at the centre of cell ``k``."""
-    return net.floor_height[k + net.floor_shift[net.cell_column[k] >> _SHIFT]]
+    """`height_in` of a cell whose column is yet to be looked up."""
+    return height_in(net, column_of(net, k), k)
+
+
+@kernel(error_model="numpy", inline="always")
+def gradient_in(net, column, k):
+    """Slope of the floor at the centre of cell ``k`` of ``column``, dz/dx and dz/dy."""
+    slope = net.floor_slope[k + net.floor_shift[column >> _SHIFT]]
+    return net.slopes[slope, 0], net.slopes[slope, 1]
 
 
 @kernel(error_model="numpy", inline="always")
 def gradient_of(net, k):
-    """Slope of the floor at the centre of cell ``k``, dz/dx and dz/dy."""
-    slope = net.floor_slope[k + net.floor_shift[net.cell_column[k] >> _SHIFT]]
-    return net.slopes[slope, 0], net.slopes[slope, 1]
+    """`gradient_in` of a cell whose column is yet to be looked up."""
+    return gradient_in(net, column_of(net, k), k)
 
 
 def pack_floors(column_start: np.ndarray, height: np.ndarray, gradient: np.ndarray) -> FloorStore:

@@ -59,8 +59,10 @@ def recall(field, column_start, nx, nearest):
     """Fill in ``nearest`` (n, 2) float64 [m] of all cells of a `FIELD` of ``nx`` strips of columns. The turns
     are gone through again in their order, so each cell finds what it took."""
     choice, cells = field.choice, field.choice.shape[0]
-    for c in range(cells):
-        nearest[c, 0], nearest[c, 1] = _own_place(field, c)
+    nearest[:] = np.inf
+    for i in range(field.list_cell.shape[0]):
+        c = field.list_cell[i]
+        nearest[c, 0], nearest[c, 1] = _place_in(field, i)
     h = field.cell
     for turn in range(0, 4, 2):
         back, side, other = (2, 3, 1) if turn == 0 else (0, 1, 3)
@@ -100,12 +102,13 @@ def _take(nearest, c, n, dx, dy):
 
 
 @kernel(error_model="numpy", inline="always")
-def _own_place(net, c):
-    """The vector from the centre of cell ``c`` to the nearest place in its own list; inf without one."""
-    if net.blocker_start[c] == net.blocker_start[c + 1]:
+def _place_in(net, own):
+    """The vector to the nearest place in list ``own`` from the centre of the cell that it is of; inf for list
+    -1."""
+    if own < 0:
         return np.inf, np.inf
-    x, y = centre_of(net, c)
-    return nearest_in_list(net.blocker, net.blocker_start[c], net.blocker_start[c + 1], x, y)
+    x, y = centre_of(net, net.list_cell[own])
+    return nearest_in_list(net.blocker, net.list_start[own], net.list_start[own + 1], x, y)
 
 
 @kernel(error_model="numpy", inline="always")
@@ -131,7 +134,7 @@ def _known(net, c):
         north, south = north + (dy > 0), south + (dy < 0)
         at = other
         count += 1
-    x, y = _own_place(net, at)
+    x, y = _place_in(net, net.source[c])
     if east * west == 0 and north * south == 0:  # one by one, as they were added
         for _ in range(east + west):
             x += net.cell if east else -net.cell
@@ -174,7 +177,7 @@ def nearly_nearest_of(net, c):
     source = np.int64(net.source[c])
     if source < 0:
         return np.inf, np.inf
-    x, y = _own_place(net, source)
+    x, y = _place_in(net, source)
     cx, cy = centre_of(net, c)
-    px, py = centre_of(net, source)
+    px, py = centre_of(net, net.list_cell[source])
     return x + (px - cx), y + (py - cy)

@@ -9,8 +9,9 @@ from navmesh.level.raster import Patch
 from navmesh.surface.build import Cells, Grid, Window, surface_of, whole_patch
 from navmesh.surface.clearance import settle_window
 from navmesh.surface.clearance_changes import renew_clearance
+from navmesh.surface.columns import find_column, milestones
 from navmesh.surface.floor_store import renew_floors
-from navmesh.surface.splicing import copy_run, renumber_run, runs_of, splice
+from navmesh.surface.splicing import copy_run, first_list, moved_list, renumber_run, runs_of, splice
 from navmesh.surface.surface import Surface
 from navmesh.surface.windows import cells_within
 from surefoot.kernels import allocating_kernel, kernel
@@ -21,7 +22,7 @@ __all__ = ["cells_in", "cells_of_surface", "inside_of", "moved_cells", "renew_su
 def cells_of_surface(surface: Surface) -> Cells:
     """The cells that a surface is made of."""
     return Cells(
-        surface.column_start, surface.cell_column, surface.storey, surface.blocker_start, surface.blocker,
+        surface.column_start, surface.storey, surface.list_cell, surface.list_start, surface.blocker,
         surface.floor,
     )  # fmt: skip
 
@@ -37,13 +38,13 @@ def renew_surface(
     """
     whole = whole_patch(grid)
     before = cells_of_surface(old)
-    linked = splice(before, fresh, window, around, whole.ny)
+    linked, moves = splice(before, fresh, window, around, whole.ny)
     floor = renew_floors(
         old.floor, old.column_start, fresh.floor, fresh.column_start, linked.column_start, window, around,
         whole.ny,
     )  # fmt: skip
     cells = Cells(
-        linked.column_start, linked.cell_column, linked.storey, linked.blocker_start, linked.blocker, floor
+        linked.column_start, linked.storey, linked.list_cell, linked.list_start, linked.blocker, floor
     )
     new = renew_clearance(before, old.field, fresh, window, around, whole, most)
     if new is None:
@@ -53,15 +54,15 @@ def renew_surface(
     runs, count = runs_of(old.column_start, new.cells.column_start, new.window, patch, whole.ny)
     clearance, source, choice = np.empty(count), np.empty(count, np.int32), np.empty(count, np.uint8)
     _splice_values(
-        old.column_start, old.cell_column, old.clearance, old.source, old.choice,
-        new.cells.column_start, new.cells.cell_column, new.nearest, new.source, new.choice,
-        runs, cells.column_start, patch, whole.ny, clearance, source, choice,
+        old.list_cell, old.clearance, old.source, old.choice, moves,
+        new.nearest, new.source, new.choice, _lists_in_whole(new.cells.list_cell, cells.list_cell, runs),
+        runs, clearance, source, choice,
     )  # fmt: skip
     surface = Surface(
         origin=grid.origin, resolution=grid.resolution, shape=grid.shape,
-        column_start=cells.column_start, cell_column=cells.cell_column, floor=floor, storey=cells.storey,
-        clearance=clearance, choice=choice, kept_nearest=np.empty((0, 2)), source=source,
-        blocker_start=cells.blocker_start, blocker=cells.blocker,
+        column_start=cells.column_start, milestone=milestones(cells.column_start), floor=floor,
+        storey=cells.storey, clearance=clearance, choice=choice, kept_nearest=np.empty((0, 2)), source=source,
+        list_cell=cells.list_cell, list_start=cells.list_start, blocker=cells.blocker,
     )  # fmt: skip
     settle_window(surface.field, surface.column_start, np.array(new.window))
     return surface, new.window
@@ -70,13 +71,14 @@ def renew_surface(
 def cells_in(surface: Surface, window: Window) -> tuple[Any, np.ndarray]:
     """The cells of the columns of ``window`` by themselves as a `FIELD`, links that lead out of it being cut,
     without what measuring distances takes; and the number of each of them in the whole (n,) int32."""
-    start, column, storey, where = cells_within(
+    start, storey, where = cells_within(
         surface.column_start, surface.storey, np.array(window), surface.shape[1]
     )
     shape, clearance = (window[2] - window[0], window[3] - window[1]), surface.clearance[where]
     part = replace(
-        surface, shape=shape, column_start=start, cell_column=column, storey=storey, clearance=clearance
-    )
+        surface, shape=shape, column_start=start, milestone=milestones(start), storey=storey,
+        clearance=clearance,
+    )  # fmt: skip
     return part.field, where
 
 
@@ -86,7 +88,7 @@ def moved_cells(cells: np.ndarray, before: Surface, surface: Surface, window: Wi
     low, high = window[0] * surface.shape[1], window[2] * surface.shape[1]
     shift = int(surface.column_start[high]) - int(before.column_start[high])
     return _moved_all(
-        cells, before.cell_column, before.column_start, surface.column_start,
+        cells, before.column_start, before.milestone, surface.column_start,
         int(before.column_start[low]), int(before.column_start[high]), shift,
     )  # fmt: skip
 
@@ -106,14 +108,8 @@ def _inside_of(columns, window, ny):
     return inside
 
 
-@kernel(inline="always")
-def _moved(cell, column, old_start, start):
-    """The number of a cell of an unchanged column in the whole."""
-    return start[column] + cell - old_start[column]
-
-
 @allocating_kernel
-def _moved_all(cells, old_column, old_start, start, low, high, shift):
+def _moved_all(cells, old_start, old_milestone, start, low, high, shift):
     moved = np.empty(cells.shape[0], np.int32)
     for k in range(cells.shape[0]):
         c = cells[k]
@@ -122,34 +118,46 @@ def _moved_all(cells, old_column, old_start, start, low, high, shift):
         elif c >= high:
             moved[k] = c + shift
         else:
-            moved[k] = _moved(c, old_column[c], old_start, start)
+            column = find_column(old_start, old_milestone, np.int64(c))
+            moved[k] = start[column] + c - old_start[column]
     return moved
+
+
+@allocating_kernel
+def _lists_in_whole(part, whole, runs):
+    """(l,) int32: the numbers in the ``whole`` of the lists of a ``part``, both by `list_cell`, whose cells
+    are the new ``runs``."""
+    number = np.empty(part.shape[0], np.int32)
+    for row in range(1, runs.shape[0], 2):
+        first, last = first_list(part, runs[row, 1]), first_list(part, runs[row, 1] + runs[row, 2])
+        to = first_list(whole, runs[row, 3])
+        for own in range(first, last):
+            number[own] = to + own - first
+    return number
 
 
 @kernel
 def _splice_values(
-    old_start, old_column, old_clearance, old_source, old_choice,
-    new_start, new_column, new_nearest, new_source, new_choice,
-    runs, start, patch, ny, clearance, source, choice,
+    old_list_cell, old_clearance, old_source, old_choice, moves,
+    new_nearest, new_source, new_choice, number, runs, clearance, source, choice,
 ):  # fmt: skip
-    """Fill in clearance, source and choice of the whole."""
+    """Fill in clearance, source and choice of the whole; ``number`` are those of the new lists."""
     for row in range(runs.shape[0]):
         first, size, at = runs[row, 1], runs[row, 2], runs[row, 3]
         if runs[row, 0] == 0:
             copy_run(old_clearance, first, size, clearance, at)
             copy_run(old_choice, first, size, choice, at)
-            renumber_run(old_source, 1, first, size, at, old_column, old_start, start, source)
+            low, high = first_list(old_list_cell, first), first_list(old_list_cell, first + size)
+            shift = moved_list(moves, low) - low
+            renumber_run(old_source, first, size, at, low, high, shift, moves, source)
             continue
         for k in range(size):
             c = first + k
             x, y = new_nearest[c, 0], new_nearest[c, 1]
             clearance[at + k] = np.sqrt(x * x + y * y)
             choice[at + k] = new_choice[c]
-            s = new_source[c]
-            if s >= 0:
-                inside = new_column[s]
-                ix = inside // patch.ny
-                column = (ix + patch.left) * ny + inside - ix * patch.ny + patch.near
-                source[at + k] = start[column] + s - new_start[inside]
+            own = np.int64(new_source[c])
+            if own >= 0:
+                source[at + k] = number[own]
             else:
-                source[at + k] = _moved(-2 - s, old_column[-2 - s], old_start, start) if s < -1 else -1
+                source[at + k] = moved_list(moves, -2 - own) if own < -1 else -1

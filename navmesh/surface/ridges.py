@@ -11,6 +11,7 @@ from math import sqrt
 import numpy as np
 
 from navmesh.surface.clearance_field import centre_of, gap_at, stretch_gap
+from navmesh.surface.columns import column_of
 from navmesh.surface.recall import nearest_of, nearly_nearest_of
 from navmesh.surface.storeys import linked
 from surefoot.kernels import kernel
@@ -134,9 +135,7 @@ def _least_gap(field, k, ax, ay, bx, by):
         low, high = 0.5 * part * length, 0.5 * (part + 1) * length
         k = _under(field, k, ax + 0.5 * (low + high) * ux, ay + 0.5 * (low + high) * uy)
         cx, cy = centre_of(field, k)
-        least = stretch_gap(
-            field, k, np.int64(field.cell_column[k]), cx, cy, ax, ay, ux, uy, low, high, least
-        )[0]
+        least = stretch_gap(field, k, column_of(field, k), cx, cy, ax, ay, ux, uy, low, high, least)[0]
     return least
 
 

@@ -6,6 +6,7 @@ A byte says it, and it stays right however the cells of other columns are number
 import numpy as np
 
 from navmesh.errors import NavmeshError
+from navmesh.surface.columns import column_of
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["APART", "MOST", "check_storeys", "linked", "links_of", "over", "storeys_of"]
@@ -38,7 +39,7 @@ def over(net, k, column, way):
 @kernel(error_model="numpy", inline="always")
 def linked(net, k, way):
     """`over` of a cell whose column is yet to be looked up."""
-    return over(net, k, np.int64(net.cell_column[k]), way)
+    return over(net, k, column_of(net, k), way)
 
 
 @allocating_kernel(nogil=True)

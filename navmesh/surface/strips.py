@@ -14,7 +14,16 @@ import numpy as np
 
 from navmesh.level.terrain import Terrain
 from navmesh.rules import WalkRules
-from navmesh.surface.build import Cells, Grid, check_floor, find_cells, found_cells, patch_around, reach_of
+from navmesh.surface.build import (
+    Cells,
+    Grid,
+    check_floor,
+    find_cells,
+    found_cells,
+    lists_of,
+    patch_around,
+    reach_of,
+)
 from navmesh.surface.floor_store import SIDE, join_floors, pack_floors
 from navmesh.surface.storeys import storeys_of
 from navmesh.threads import in_threads
@@ -60,8 +69,7 @@ def _bounds(grid: Grid, narrowest: int, threads: int) -> list[int]:
 
 def _strip(terrain: Terrain, rules: WalkRules, grid: Grid, first: int, last: int, margin: int) -> Cells:
     """The cells of the columns from ``first`` up to, not including, ``last`` along x. Columns are those of
-    the whole, cells are counted from the strip's first; `column_start` and `blocker_start` lack their
-    ends."""
+    the whole, cells are counted from the strip's first; `column_start` and `list_start` lack their ends."""
     nx, ny = grid.shape
     window = (max(first - margin, 0), 0, min(last + margin, nx), ny)
     patch = patch_around(grid, window)
@@ -69,16 +77,14 @@ def _strip(terrain: Terrain, rules: WalkRules, grid: Grid, first: int, last: int
     start = found.column_start[:-1].reshape(patch.nx, patch.ny)
     begin, end = start[first - patch.left, 0], start[last - patch.left, 0]
     start = start[first - patch.left : last - patch.left, -patch.near : ny - patch.near] - begin
-    column = found.cell_column[begin:end]
-    ix = column // np.int32(patch.ny)
-    column = column - ix * np.int32(patch.ny - ny) + np.int32(patch.left * ny + patch.near)
     lists = found.blocker_start[begin : end + 1]
+    list_cell, list_start = lists_of(np.diff(lists))
     start = start.ravel()
     return Cells(
         start,
-        column,
         storeys_of(found.column_start, found.cell_column, found.link)[begin:end].copy(),
-        lists[:-1] - lists[0],
+        list_cell,
+        list_start[:-1],
         found.blocker[lists[0] : lists[-1]].copy(),
         pack_floors(
             np.append(start, np.int32(end - begin)), found.height[begin:end], found.gradient[begin:end]
@@ -90,12 +96,13 @@ def _joined(strips: list[Cells]) -> Cells:
     """All cells, from those of the strips, which lose theirs."""
     parts = [{field.name: getattr(strip, field.name) for field in fields(Cells)} for strip in strips]
     del strips[:]
-    count = np.cumsum([0, *(len(part["cell_column"]) for part in parts)])
+    count = np.cumsum([0, *(len(part["storey"]) for part in parts)])
     lists = np.cumsum([0, *(len(part["blocker"]) for part in parts)])
     for k, part in enumerate(parts):
         part["column_start"] += np.int32(count[k])
-        part["blocker_start"] += np.int32(lists[k])
-    end = {"column_start": count[-1], "blocker_start": lists[-1]}
+        part["list_cell"] += np.int32(count[k])
+        part["list_start"] += np.int32(lists[k])
+    end = {"column_start": count[-1], "list_start": lists[-1]}
     whole: dict[str, Any] = {"floor": join_floors([part.pop("floor") for part in parts])}
     for name in list(parts[0]):
         arrays = [part.pop(name) for part in parts]

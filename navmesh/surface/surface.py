@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from navmesh.surface.clearance_field import FIELD
+from navmesh.surface.columns import columns_of, columns_of_all
 from navmesh.surface.floor_store import FloorStore
 from navmesh.surface.recall import recall
 from navmesh.surface.storeys import APART, links_of
@@ -35,8 +36,8 @@ class Surface:
     """(nx, ny) columns. Column c = ix·ny + iy has its centre at ((ix + ½), (iy + ½))·resolution."""
     column_start: np.ndarray
     """(nx·ny + 1,) int32: the cells of column c are column_start[c]:column_start[c + 1], lowest first."""
-    cell_column: np.ndarray
-    """(n,) int32: the column of each cell."""
+    milestone: np.ndarray
+    """(⌈n / 32⌉ + 1,) int32: the columns of some of the cells, see `navmesh.surface.columns`."""
     floor: FloorStore
     """`height` and `gradient` of the cells, packed."""
     storey: np.ndarray
@@ -49,25 +50,40 @@ class Surface:
     kept_nearest: np.ndarray
     """(n, 2) float64: `nearest` where something changes it in place (zones), else (0, 2): it is recalled."""
     source: np.ndarray
-    """(n,) int32: the cell that has that place in its list of blockers, or -1 where walking ends nowhere."""
-    blocker_start: np.ndarray
-    """(n + 1,) int32: the blockers beside cell c are blocker_start[c]:blocker_start[c + 1]."""
+    """(n,) int32: the list of blockers with that place in it, or -1 where walking ends nowhere."""
+    list_cell: np.ndarray
+    """(l,) int32, rising: the cell that each list of blockers is of; few cells have one."""
+    list_start: np.ndarray
+    """(l + 1,) int32: the blockers of list i are list_start[i]:list_start[i + 1]."""
     blocker: np.ndarray
     """(k, 4) float64 [m]: x, y of both ends of a segment at which walking ends, exact; see
     `navmesh.surface.blockers`."""
 
     def __len__(self) -> int:
-        return len(self.cell_column)
+        return len(self.clearance)
 
     @property
     def field(self) -> Any:
         """What kernels need to measure distances, a `FIELD`."""
         return Bundle(
             FIELD, cell=self.resolution, ny=self.shape[1], column_start=self.column_start,
-            cell_column=self.cell_column, storey=self.storey, nearest=self.kept_nearest,
+            milestone=self.milestone, storey=self.storey, nearest=self.kept_nearest,
             clearance=self.clearance, choice=self.choice, source=self.source,
-            blocker_start=self.blocker_start, blocker=self.blocker,
+            list_cell=self.list_cell, list_start=self.list_start, blocker=self.blocker,
         )  # fmt: skip
+
+    @property
+    def cell_column(self) -> np.ndarray:
+        """(n,) int32: the column of each cell. Worked out for all cells each time."""
+        return columns_of_all(self.column_start)
+
+    @property
+    def blocker_start(self) -> np.ndarray:
+        """(n + 1,) int32: the blockers beside cell c are blocker_start[c]:blocker_start[c + 1]. Worked out
+        each time."""
+        count = np.zeros(len(self) + 1, np.int32)
+        count[self.list_cell + 1] = np.diff(self.list_start[: len(self.list_cell) + 1])
+        return np.cumsum(count, dtype=np.int32)
 
     @property
     def link(self) -> np.ndarray:
@@ -96,25 +112,31 @@ class Surface:
         `max_slope` allows. Unpacked each time."""
         return self.floor.unpacked(self.column_start)[1]
 
+    def columns(self, cells: np.ndarray) -> np.ndarray:
+        """`cell_column` (k,) of ``cells`` (k,)."""
+        return columns_of(self.column_start, self.milestone, np.asarray(cells, np.int64))
+
     def links(self, cells: np.ndarray) -> np.ndarray:
         """`link` (k, 4) of ``cells`` (k,)."""
         storey = self.storey[cells]
-        beside = self.cell_column[cells][:, None] + DIRECTIONS @ np.array([self.shape[1], 1], np.int32)
+        beside = self.columns(cells)[:, None] + DIRECTIONS @ np.array([self.shape[1], 1], np.int32)
         start = self.column_start[np.clip(beside, 0, len(self.column_start) - 1)]
         return np.where(storey == APART, -1, start + storey)
 
     def heights(self, cells: np.ndarray) -> np.ndarray:
         """`height` of ``cells`` (k,)."""
-        return self.floor.height[self.floor.places(self.column_start, self.cell_column, cells)]
+        return self.floor.height[self._floors(cells)]
 
     def gradients(self, cells: np.ndarray) -> np.ndarray:
         """`gradient` (k, 2) of ``cells`` (k,)."""
-        floor = self.floor
-        return floor.slopes[floor.slope[floor.places(self.column_start, self.cell_column, cells)]]
+        return self.floor.slopes[self.floor.slope[self._floors(cells)]]
+
+    def _floors(self, cells: np.ndarray) -> np.ndarray:
+        return self.floor.places(self.column_start, self.columns(cells), cells)
 
     def centers(self, cells: np.ndarray | None = None) -> np.ndarray:
         """World coordinates (k, 3) float64 of the centres of ``cells`` (k,), or of all."""
-        columns = self.cell_column if cells is None else self.cell_column[cells]
+        columns = self.cell_column if cells is None else self.columns(cells)
         heights = self.height if cells is None else self.heights(cells)
         ix, iy = np.divmod(columns, self.shape[1])
         half = np.stack([ix + 0.5, iy + 0.5], axis=1) * self.resolution

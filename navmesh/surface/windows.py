@@ -47,17 +47,13 @@ def storeys_within(storey, start, first, window, found):
 
 @allocating_kernel
 def cells_within(column_start, storey, window, ny):
-    """The cells of a ``window`` by themselves: ``column_start``, the column and the storeys of each, and its
-    number in the whole (n,) int32."""
+    """The cells of a ``window`` by themselves: ``column_start``, the storeys of each, and its number in the
+    whole (n,) int32."""
     start, first = columns_in(column_start, window, ny)
     count = start[-1]
-    found, column, where = (
-        np.empty((count, 4), np.uint8),
-        np.empty(count, np.int32),
-        np.empty(count, np.int32),
-    )
+    found, where = np.empty((count, 4), np.uint8), np.empty(count, np.int32)
     storeys_within(storey, start, first, window, found)
     for c in range(first.shape[0]):
         for k in range(start[c], start[c + 1]):
-            column[k], where[k] = c, first[c] + k - start[c]
-    return start, column, found, where
+            where[k] = first[c] + k - start[c]
+    return start, found, where

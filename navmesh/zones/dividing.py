@@ -72,7 +72,7 @@ def divide(graph: "NodeGraph", outlines: dict[str, np.ndarray], may_be_nowhere: 
     nearest = surface.nearest
     divided = replace(
         surface, storey=surface.storey.copy(), clearance=surface.clearance.copy(), kept_nearest=nearest,
-        source=lists.source, blocker_start=lists.blocker_start, blocker=lists.blocker,
+        source=lists.source, list_start=lists.list_start, blocker=lists.blocker,
     )  # fmt: skip
     side_zone = np.searchsorted(side_start, lists.side, side="right") - 1
     row_start, row, side = grouped(side_zone, len(local), lists.row, lists.side)

@@ -14,9 +14,9 @@ class Lists(NamedTuple):
     """The lists of blockers of a surface with those of the cells that know zones."""
 
     source: np.ndarray
-    """(n,) int32, as of `Surface`; those from n on are lists of no single cell."""
-    blocker_start: np.ndarray
-    """(n + 1 + lists,) int32."""
+    """(n,) int32, as of `Surface`; those from l on are lists of no single cell."""
+    list_start: np.ndarray
+    """(l + 1 + lists,) int32."""
     blocker: np.ndarray
     """(k, 4) float64 [m]: those of outlines are nan, as if the zones were open."""
     row: np.ndarray
@@ -52,7 +52,7 @@ def lists_with(surface: Surface, cell: np.ndarray, zone: np.ndarray, side_start:
     source = surface.source[known]
     key = np.full((len(known), 2 + width), -1, np.int32)
     has = source >= 0
-    key[has, 0], key[has, 1] = surface.blocker_start[source[has]], surface.blocker_start[source[has] + 1]
+    key[has, 0], key[has, 1] = surface.list_start[source[has]], surface.list_start[source[has] + 1]
     for turn in range(width):
         more = count > turn
         key[more, 2 + turn] = zone[first[more] + turn]
@@ -63,9 +63,9 @@ def lists_with(surface: Surface, cell: np.ndarray, zone: np.ndarray, side_start:
     of_cell[order] = np.cumsum(fresh) - 1
     end, rows, row, side = _written(key[order[fresh]], side_start, surface.blocker)
     all_source = surface.source.copy()
-    all_source[known] = len(surface) + of_cell
+    all_source[known] = len(surface.list_cell) + of_cell
     return Lists(
-        all_source, np.concatenate([surface.blocker_start, end + len(surface.blocker)]).astype(np.int32),
+        all_source, np.concatenate([surface.list_start, end + len(surface.blocker)]).astype(np.int32),
         np.concatenate([surface.blocker, rows]), row + np.int32(len(surface.blocker)), side,
     )  # fmt: skip
 

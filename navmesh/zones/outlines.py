@@ -8,6 +8,7 @@ import numpy as np
 
 from navmesh.errors import NavmeshError
 from navmesh.obstacles.free_length import cells_of
+from navmesh.surface.columns import column_of
 from navmesh.surface.floor_store import height_of
 from navmesh.surface.storeys import linked
 from navmesh.surface.surface import Surface
@@ -172,7 +173,7 @@ def _concerned(outline, low, high, cells, clearance, mark, number):
     while head < size:
         k = queue[head]
         head += 1
-        column = cells.cell_column[k]
+        column = column_of(cells, k)
         ix = column // ny
         x, y = (ix + 0.5) * h, (column - ix * ny + 0.5) * h
         dx, dy = 0.0, 0.0

@@ -43,7 +43,7 @@ def patches_of(site: Site, parts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     surface = site.graph.surface
     cells = np.flatnonzero(np.append(parts, False)[site.cell_part])
     per = max(1, round(PATCH / surface.resolution))
-    ix, iy = np.divmod(surface.cell_column[cells], surface.shape[1])
+    ix, iy = np.divmod(surface.columns(cells), surface.shape[1])
     storey = np.round(surface.heights(cells) / site.graph.rules.headroom)
     keys = np.column_stack([ix // per, iy // per, storey.astype(np.int64), site.cell_part[cells]])
     _, patch = np.unique(keys, axis=0, return_inverse=True)

@@ -84,7 +84,7 @@ def _ends_about(surface, cell: int) -> np.ndarray:
     beside = [int(k) for k in surface.link[cell] if k >= 0]
     around = {cell, *beside, *(int(k) for other in beside for k in surface.link[other] if k >= 0)}
     sources = {int(surface.source[k]) for k in around} - {-1}
-    starts = surface.blocker_start
+    starts = surface.list_start
     segments = [surface.blocker[starts[k] : starts[k + 1]] for k in sources]
     return np.concatenate([np.empty((0, 4)), *segments])
 

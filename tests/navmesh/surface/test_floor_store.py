@@ -26,7 +26,7 @@ def check(store, start, height, gradient):
     assert (found[1].view(np.int64) == np.ascontiguousarray(gradient).view(np.int64)).all()  # -0.0, too
     columns = np.repeat(np.arange(len(start) - 1, dtype=np.int32), np.diff(start))
     cells = np.arange(len(height))[::-3]
-    np.testing.assert_array_equal(store.height[store.places(start, columns, cells)], height[cells])
+    np.testing.assert_array_equal(store.height[store.places(start, columns[cells], cells)], height[cells])
 
 
 def test_all_comes_back():

@@ -29,7 +29,9 @@ def _all_of(net, cells):
 def _carried(surface, grid):
     """The vectors as a build carries them over the links, and measures those beside walls."""
     patch, (nx, ny) = whole_patch(grid), grid.shape
-    nearest = nearest_blockers(surface.blocker_start, surface.blocker, surface.cell_column, patch)
+    nearest = nearest_blockers(
+        surface.list_cell, surface.list_start, surface.blocker, surface.cell_column, patch
+    )
     source = np.arange(len(surface), dtype=np.int32)
     clearance, _ = spread_clearance(
         surface.column_start, surface.cell_column, surface.storey, nearest, source, grid.resolution, nx, ny

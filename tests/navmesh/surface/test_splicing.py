@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from navmesh.level.raster import Patch
-from navmesh.surface.build import LinkedCells
-from navmesh.surface.splicing import renumber_run, splice
+from navmesh.surface.build import LinkedCells, lists_of
+from navmesh.surface.columns import columns_of_all
+from navmesh.surface.splicing import moved_list, renumber_run, splice, take
 from navmesh.surface.storeys import APART
 
 NX, NY = 4, 3
@@ -24,9 +25,8 @@ def cells(counts, first):
             if 0 <= x < NX and 0 <= y < NY and s < counts[x * NY + y]:
                 beside[k, d] = s
     height = first + 100.0 * column + storey
-    blockers = np.concatenate([[0], np.cumsum(storey)]).astype(np.int32)
     of = np.repeat(height, storey)
-    return LinkedCells(start, column, beside, blockers, np.tile(of[:, None], 4))
+    return LinkedCells(start, beside, *lists_of(storey), np.tile(of[:, None], 4))
 
 
 @pytest.mark.parametrize("window", [(1, 1, 3, 2), (0, 0, 4, 3), (2, 0, 4, 3), (1, 1, 1, 1)])
@@ -46,34 +46,49 @@ def test_inside_it_is_as_in_the_new_and_outside_as_in_the_old(window):
     old, new = cells(old_counts, 0.0), cells(new_counts, 0.5)
     whole_counts = np.where(inside, new_counts, old_counts)
     expected = cells(whole_counts, 0.0)
-    shift = 0.5 * inside[expected.cell_column]
-    expected.blocker[:] += np.repeat(shift, np.diff(expected.blocker_start))[:, None]
-    found = splice(old, new, window, Patch(0.25, 0, 0, NX, NY), NY)
-    for name in ("column_start", "cell_column", "blocker_start", "blocker"):
+    within = inside[columns_of_all(expected.column_start)]
+    count = np.diff(expected.list_start)
+    expected.blocker[:] += 0.5 * np.repeat(within[expected.list_cell], count)[:, None]
+    found, moves = splice(old, new, window, Patch(0.25, 0, 0, NX, NY), NY)
+    for name in ("column_start", "list_cell", "list_start", "blocker"):
         np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
     # links from outside into the window are those of the old part, which knew as many storeys there as it had
-    within = inside[found.cell_column]
     np.testing.assert_array_equal(found.storey[within], expected.storey[within])
+    # lists of cells outside are found again
+    column = columns_of_all(old.column_start)[old.list_cell]
+    for own in np.flatnonzero(~inside[column]):
+        cell = found.column_start[column[own]] + old.list_cell[own] - old.column_start[column[own]]
+        assert found.list_cell[moved_list(moves, own)] == cell
+
+
+def test_a_window_taken_is_what_lies_there():
+    counts = np.random.default_rng(4).integers(0, 4, NX * NY)
+    whole = cells(counts, 0.0)
+    part, first = take(whole, (1, 1, 3, 3), NY)
+    there = [1 * NY + 1, 1 * NY + 2, 2 * NY + 1, 2 * NY + 2]
+    np.testing.assert_array_equal(first, whole.column_start[there])
+    np.testing.assert_array_equal(np.diff(part.column_start), counts[there])
+    storeys = np.concatenate([np.arange(counts[c]) for c in there])
+    lists = lists_of(storeys)
+    np.testing.assert_array_equal(part.list_cell, lists[0])
+    np.testing.assert_array_equal(part.list_start, lists[1])
+    height = np.concatenate([100.0 * c + np.arange(counts[c]) for c in there])
+    np.testing.assert_array_equal(part.blocker[:, 0], np.repeat(height, storeys))
 
 
 @pytest.mark.parametrize(
     "first, size, at", [(0, 5000, 0), (0, 5000, 40), (3000, 6500, 2500), (9000, 1000, 9700)]
 )
-def test_numbers_of_cells_move_with_the_cells(first, size, at):
+def test_numbers_of_lists_move_with_the_lists(first, size, at):
     rng = np.random.default_rng(size)
-    column = np.sort(rng.integers(0, 4000, 10_000)).astype(np.int32)
-    old_start = np.searchsorted(column, np.arange(4001)).astype(np.int32)
-    start = (old_start + rng.integers(0, 50, 4001).cumsum()).astype(np.int32)
-    numbers = rng.integers(-1, 10_000, 20_000).astype(np.int32)
-    numbers[::3] = np.clip(numbers[::3], first, first + size - 1)
-    numbers[2 * first : 2 * first + 4500] = rng.integers(first, first + size, 20_000)[
-        2 * first : 2 * first + 4500
-    ]
-    whole = np.full(30_000, -7, np.int32)
-    renumber_run(numbers, 2, first, size, at, column, old_start, start, whole)
-    for k in range(2 * first, 2 * (first + size)):
-        m = numbers[k]
-        inside = first <= m < first + size
-        expected = m if m < 0 else m + at - first if inside else start[column[m]] + m - old_start[column[m]]
-        assert whole[k + 2 * (at - first)] == expected
-    assert (whole[: 2 * at] == -7).all() and (whole[2 * (at + size) :] == -7).all()
+    begin = np.array([0, 1200, 3000, 7000])  # of the lists that move alike
+    moves = np.column_stack([begin, [0, 17, -5, 300]]).astype(np.int64)
+    numbers = rng.integers(-1, 10_000, 10_000).astype(np.int32)
+    numbers[::3] = np.clip(numbers[::3], 3000, 6999)
+    numbers[first : first + 4500] = rng.integers(3000, 7000, 10_000)[first : first + 4500]
+    whole = np.full(20_000, -7, np.int32)
+    renumber_run(numbers, first, size, at, 3000, 7000, -5, moves, whole)
+    by = moves[np.searchsorted(begin, numbers, side="right") - 1, 1]
+    expected = np.where(numbers < 0, -1, numbers + by)
+    np.testing.assert_array_equal(whole[at : at + size], expected[first : first + size])
+    assert (whole[:at] == -7).all() and (whole[at + size :] == -7).all()

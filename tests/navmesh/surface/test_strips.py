@@ -10,7 +10,7 @@ from navmesh.surface.strips import all_cells
 from tests.navmesh.shapes import box, plane, terrain
 from tests.navmesh.surface.levels import RULES, random_level
 
-FIELDS = ("column_start", "cell_column", "storey", "blocker_start", "blocker")
+FIELDS = ("column_start", "storey", "list_cell", "list_start", "blocker")
 
 
 @pytest.fixture

@@ -45,4 +45,11 @@ def test_the_nearest_place_is_as_far_as_the_clearance_says(surface):
     ended = surface.source >= 0
     assert np.linalg.norm(surface.nearest[ended], axis=1) == pytest.approx(surface.clearance[ended])
     assert ended.any() and (surface.source[~ended] == -1).all()
-    assert (np.diff(surface.blocker_start)[surface.source[ended]] > 0).all()
+    assert surface.source.max() < len(surface.list_cell)
+
+
+def test_lists_of_blockers_are_those_of_their_cells(surface):
+    start = surface.blocker_start
+    assert start[0] == 0 and start[-1] == len(surface.blocker)
+    np.testing.assert_array_equal(np.flatnonzero(np.diff(start)), surface.list_cell)
+    np.testing.assert_array_equal(start[surface.list_cell], surface.list_start[:-1])

@@ -29,11 +29,11 @@ def test_cells_have_their_list_and_the_sides_of_their_zones():
     lists = lists_with(surface, cell, zone, start)
     told = dict(zip(lists.row.tolist(), lists.side.tolist(), strict=True))
     for each in range(len(surface)):
-        first, last = lists.blocker_start[lists.source[each]], lists.blocker_start[lists.source[each] + 1]
+        first, last = lists.list_start[lists.source[each]], lists.list_start[lists.source[each] + 1]
         rows = range(first, last)
         plain = [row for row in rows if row not in told]
         source = surface.source[each]
-        old = surface.blocker[surface.blocker_start[source] : surface.blocker_start[source + 1]]
+        old = surface.blocker[surface.list_start[source] : surface.list_start[source + 1]]
         np.testing.assert_array_equal(lists.blocker[plain], old if source >= 0 else old[:0])
         sides = [told[row] for row in rows if row in told]
         assert sides == [s for z in zone[cell == each] for s in range(start[z], start[z + 1])]

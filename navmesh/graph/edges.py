@@ -7,7 +7,7 @@ import numpy as np
 
 from navmesh.surface.clearance_field import centre_of
 from navmesh.surface.ridges import half_width, widest_through
-from navmesh.surface.storeys import linked
+from navmesh.surface.storeys import over
 from navmesh.threads import in_threads, shares
 from surefoot.kernels import allocating_kernel, kernel
 
@@ -24,19 +24,23 @@ _FINE = 0.002
 def border_pairs(label, field):
     """The pairs of linked cells with different labels: for each a key, the lesser label in the upper half
     (k,) int64, the cells (k, 2) int32, that of the lesser label first, and the lesser clearance (k,)."""
-    borders = 0
+    borders, column = 0, np.int64(0)
     for c in range(label.shape[0]):
+        while field.column_start[column + 1] <= c:
+            column += 1
         for d in range(2):
-            n = linked(field, c, d)
+            n = over(field, c, column, d)
             if n >= 0 and label[n] != label[c] and label[n] >= 0 and label[c] >= 0:
                 borders += 1
     key = np.empty(borders, np.int64)
     pair = np.empty((borders, 2), np.int32)
     width = np.empty(borders)
-    k = 0
+    k, column = 0, np.int64(0)
     for c in range(label.shape[0]):
+        while field.column_start[column + 1] <= c:
+            column += 1
         for d in range(2):
-            n = linked(field, c, d)
+            n = over(field, c, column, d)
             if n < 0 or label[n] == label[c] or label[n] < 0 or label[c] < 0:
                 continue
             first, second = (c, n) if label[c] < label[n] else (n, c)

@@ -13,7 +13,7 @@ import numpy as np
 from navmesh.graph.nodes import grain_of, order_by_clearance, select_nodes
 from navmesh.level.raster import Patch
 from navmesh.surface.build import Window
-from navmesh.surface.renewal import cells_in, inside_of, moved_cells
+from navmesh.surface.renewal import cells_in, inside_of, moved_cells, within_of
 from navmesh.surface.splicing import runs_of
 from navmesh.surface.surface import Surface
 from navmesh.surface.windows import columns_in
@@ -87,6 +87,8 @@ class _Chosen:
     """(r,) int64: the nodes of before that were chosen in the rectangle."""
     where: np.ndarray
     """(j,) int32: the cells that the labels are of."""
+    within: np.ndarray
+    """(j,) bool: which of them are in the rectangle."""
     boxes: np.ndarray
     """(b, 4): the columns under the discs that are new or gone."""
 
@@ -97,11 +99,11 @@ def _choose_in(area: np.ndarray, old: Nodes, before: Surface, surface: Surface, 
     near = _near(old.place, side, area)
     in_area = inside_of(before.columns(old.maker[near]), window, surface.shape[1])
     there, given = near[in_area], near[~in_area]
-    field, where = cells_in(
-        surface, tuple(hull(area, boxes_of(old.place[given], side), _SEEN, surface).tolist())
-    )
+    around = tuple(hull(area, boxes_of(old.place[given], side), _SEEN, surface).tolist())
+    field, where = cells_in(surface, around)
+    within = within_of(field.column_start, around, window)
     order = order_by_clearance(field.clearance, grain_of(surface))
-    order = order[inside_of(surface.columns(where[order]), window, surface.shape[1])]
+    order = order[within[order]]
     given_maker = moved_cells(old.maker[given], before, surface, window)
     at = _places_among(where[order], given_maker, surface.clearance, grain_of(surface))
     order = np.insert(order, at, -1 - np.arange(len(given), dtype=np.int32))
@@ -120,7 +122,7 @@ def _choose_in(area: np.ndarray, old: Nodes, before: Surface, surface: Surface, 
     )
     changed = np.concatenate([old.place[np.setdiff1d(there, was)], place[was < 0]])
     nodes = Nodes(whole_cell, place, whole_maker, label, surface.lifted(place[:, :2], whole_cell))
-    return _Chosen(nodes, was, made, there, where, boxes_of(changed, side))
+    return _Chosen(nodes, was, made, there, where, within, boxes_of(changed, side))
 
 
 def _numbered(
@@ -149,13 +151,12 @@ def _numbered(
     local[-1] = -1
     local[:-1][~chosen.made] = number[chosen.was[~chosen.made]]
     local[made] = to
-    within = inside_of(surface.columns(chosen.where), window, surface.shape[1])
     start, _ = columns_in(surface.column_start, area, surface.shape[1])
     patch = Patch(surface.resolution, *area[:2].tolist(), *(area[2:] - area[:2]).tolist())
     runs, count = runs_of(before.column_start, start, window, patch, surface.shape[1])
     label = np.empty(count, np.int32)
     _renumber(old.label, np.concatenate([[-1], number]).astype(np.int32), runs, label)
-    label[chosen.where[within]] = local[chosen.nodes.label[within]]
+    label[chosen.where[chosen.within]] = local[chosen.nodes.label[chosen.within]]
     nodes = Nodes(
         merged(moved_cells(old.cell[kept], before, surface, window), chosen.nodes.cell[made]),
         merged(old.place[kept], chosen.nodes.place[made]),

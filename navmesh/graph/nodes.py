@@ -69,11 +69,10 @@ def _claim_line(field, label, power, node, radius, c, column, d, dx, dy):
 def _claim(field, label, power, node, k, off_x, off_y, radius):
     """Claim what lies in a disc and is reached over links from cell ``k``, whose centre is (off_x, off_y)
     from its own: along x, then along y."""
-    resolution = field.cell
+    resolution, own = field.cell, column_of(field, k)
     for d in range(0, 3, 2):
         step, beside = (resolution, field.ny) if d == 0 else (-resolution, -field.ny)
-        column = column_of(field, k)
-        spine, dx = np.int64(k), off_x
+        spine, column, dx = np.int64(k), own, off_x
         if d == 2:
             spine, column, dx = over(field, k, column, 2), column + beside, off_x - resolution
         while spine >= 0 and dx * dx <= radius * radius:

@@ -16,7 +16,7 @@ from navmesh.level.raster import Patch, middle_of
 from navmesh.surface.blockers import nearest_in_list
 from navmesh.surface.build import LinkedCells, Window
 from navmesh.surface.clearance import sweep
-from navmesh.surface.columns import column_of, columns_of_all
+from navmesh.surface.columns import columns_of_all
 from navmesh.surface.recall import came_from
 from navmesh.surface.splicing import first_list, splice, take
 from surefoot.kernels import allocating_kernel, kernel
@@ -90,11 +90,12 @@ def _guarded(inner: np.ndarray, edge: np.ndarray) -> np.ndarray:
 
 
 @allocating_kernel
-def _recalled(old, c, turn, patch, hops):
-    """What cell ``c`` knew after ``turn``: (x, y, the list that it is from or -1, room for hops)."""
+def _recalled(old, c, column, turn, patch, hops):
+    """What cell ``c`` of ``column`` knew after ``turn``: (x, y, the list that it is from or -1, the column of
+    that, room for hops)."""
     count = 0
     while True:
-        other, turn, dx, dy = came_from(old, c, turn)
+        other, turn, dx, dy = came_from(old, c, column, turn)
         if other < 0:
             break
         if count == hops.shape[0]:
@@ -102,19 +103,20 @@ def _recalled(old, c, turn, patch, hops):
         hops[count, 0], hops[count, 1] = dx, dy
         count += 1
         c = other
+        column += dx * patch.ny + dy
     own = np.int64(old.source[c])
     if own < 0 or old.list_cell[own] != c:  # it has been told of something nearer since
         own = first_list(old.list_cell, c)
         if own == old.list_cell.shape[0] or old.list_cell[own] != c:
-            return np.inf, np.inf, np.int64(-1), hops
-    mx, my = middle_of(patch, column_of(old, c))
+            return np.inf, np.inf, np.int64(-1), column, hops
+    mx, my = middle_of(patch, column)
     x, y = nearest_in_list(old.blocker, old.list_start[own], old.list_start[own + 1], mx, my)
     for k in range(count - 1, -1, -1):  # one by one, as they were added
         if hops[k, 0] != 0:
             x += hops[k, 0] * patch.side
         if hops[k, 1] != 0:
             y += hops[k, 1] * patch.side
-    return x, y, own, hops
+    return x, y, own, column, hops
 
 
 @kernel(inline="always")
@@ -142,22 +144,24 @@ def _swept(
     known, known_source = np.full((4, cells, 2), np.inf), np.full((4, cells), -1, np.int32)
     disturbed = np.zeros(4, np.bool_)
     hops = np.empty((64, 2), np.int64)
-    own = 0  # the first list that is of no cell before c
+    listed = np.full(cells, -1, np.int32)  # the list of each cell
+    for own in range(list_cell.shape[0]):
+        listed[list_cell[own]] = own
     for c in range(cells):
-        while own < list_cell.shape[0] and list_cell[own] < c:
-            own += 1
+        own = listed[c]
         column = cell_column[c]
         fixed[c] = not _inside(patch, column, inner)
         if fixed[c]:
             before = first[column] + c - column_start[column]
             choice[c] = old.choice[before]
+            there = _of_whole(patch, whole, column)
             for turn in range(4):
-                x, y, origin, hops = _recalled(old, before, turn, whole, hops)
+                x, y, origin, at, hops = _recalled(old, before, there, turn, whole, hops)
                 known[turn, c, 0], known[turn, c, 1] = x, y
-                known_source[turn, c] = _named(old, origin, column_start, list_cell, patch, whole)
-                if _is_of(old, origin, whole, window):
+                known_source[turn, c] = _named(old, origin, at, column_start, listed, patch, whole)
+                if origin >= 0 and _inside(whole, at, window):
                     _mark(disturbed, patch, column, guarded, 0)
-        elif own < list_cell.shape[0] and list_cell[own] == c:
+        elif own >= 0:
             mx, my = middle_of(patch, column)
             x, y = nearest_in_list(blocker, list_start[own], list_start[own + 1], mx, my)
             nearest[c, 0], nearest[c, 1], squared[c], source[c] = x, y, x * x + y * y, own
@@ -173,34 +177,36 @@ def _swept(
         if fixed[c] or not _at_edge(patch, column, guarded):
             continue
         before = first[column] + c - column_start[column]
+        there = _of_whole(patch, whole, column)
         for turn in range(4):
-            x, y, origin, hops = _recalled(old, before, turn, whole, hops)
+            x, y, origin, at, hops = _recalled(old, before, there, turn, whole, hops)
             same = known[turn, c, 0] == x and known[turn, c, 1] == y
-            same &= known_source[turn, c] == _named(old, origin, column_start, list_cell, patch, whole)
-            same &= not _is_of(old, origin, whole, window)
+            same &= known_source[turn, c] == _named(old, origin, at, column_start, listed, patch, whole)
+            same &= not (origin >= 0 and _inside(whole, at, window))
             if not same:
                 _mark(disturbed, patch, column, guarded, 1)
     return disturbed, nearest, source, choice
 
 
-@kernel
-def _is_of(old, origin, whole, window):
-    """Whether list ``origin`` of the whole before, or -1, is of a cell in ``window``."""
-    return origin >= 0 and _inside(whole, column_of(old, old.list_cell[origin]), window)
+@kernel(inline="always")
+def _of_whole(patch, whole, column):
+    """The column of the ``whole`` that a column of ``patch`` is, int64."""
+    ix = np.int64(column) // patch.ny
+    return (ix + patch.left) * whole.ny + column - ix * patch.ny + patch.near
 
 
 @kernel
-def _named(old, origin, column_start, list_cell, patch, whole):
-    """A list of the whole before as `Renewed.source` has it; right where its column is not changed."""
+def _named(old, origin, column, column_start, listed, patch, whole):
+    """A list of the whole before, of a cell of ``column``, as `Renewed.source` has it; right where its column
+    is not changed."""
     if origin < 0:
         return -1
-    cell = np.int64(old.list_cell[origin])
-    column = column_of(old, cell)
     ix = column // whole.ny - patch.left
     iy = column - column // whole.ny * whole.ny - patch.near
     if not (0 <= ix < patch.nx and 0 <= iy < patch.ny):
         return -2 - origin
-    return first_list(list_cell, column_start[ix * patch.ny + iy] + cell - old.column_start[column])
+    c = column_start[ix * patch.ny + iy] + old.list_cell[origin] - old.column_start[column]
+    return listed[c] if c < listed.shape[0] else -1
 
 
 @kernel(inline="always")

@@ -26,6 +26,8 @@ __all__ = [
     "fetch_cell",
     "floor_at",
     "gap_at",
+    "gap_in",
+    "middle_of_column",
     "same_place",
     "slope_at",
     "stretch_gap",
@@ -185,9 +187,14 @@ def centre_of(net, k):
 
 @kernel(error_model="numpy")
 def gap_at(net, k, x, y):
-    """Distance [m] from (x, y), a point in cell ``k``, to the nearest place where walking ends, and that
-    place."""
-    column = column_of(net, k)
+    """`gap_in` of a cell whose column is yet to be looked up."""
+    return gap_in(net, k, column_of(net, k), x, y)
+
+
+@kernel(error_model="numpy", inline="always")
+def gap_in(net, k, column, x, y):
+    """Distance [m] from (x, y), a point in cell ``k`` of ``column``, to the nearest place where walking ends,
+    and that place."""
     cx, cy = middle_of_column(net, column)
     here, side, other, corner = _around(net, k, column, 0 if x > cx else 2, 1 if y > cy else 3)
     square, qx, qy = np.inf, np.inf, np.inf

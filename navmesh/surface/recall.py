@@ -9,48 +9,51 @@ import numpy as np
 
 from navmesh.surface.blockers import nearest_in_list
 from navmesh.surface.clearance import AHEAD, BACK, BACK_AHEAD, BACK_BEHIND, BEHIND, BEHIND_BACK, OWN
-from navmesh.surface.clearance_field import centre_of, gap_at
-from navmesh.surface.storeys import linked
+from navmesh.surface.clearance_field import gap_in, middle_of_column
+from navmesh.surface.columns import column_of
+from navmesh.surface.storeys import linked, over
 from surefoot.kernels import kernel
 
-__all__ = ["came_from", "nearest_of", "nearly_nearest_of", "recall"]
+__all__ = ["came_from", "nearest_in", "nearest_of", "nearly_nearest_in", "nearly_nearest_of", "recall"]
 
 _LAST = 3
 """The last of the four turns."""
 
 
 @kernel(error_model="numpy")
-def came_from(net, c, turn):
-    """Where cell ``c`` took from what it knew after ``turn``: (cell, the turn after which that knew it, hop
-    in x, hop in y), hops in cells; cell -1 where it is from its own list, -2 where no link leads there."""
+def came_from(net, c, column, turn):
+    """Where cell ``c`` of ``column`` took from what it knew after ``turn``: (cell, the turn after which that
+    knew it, hop in x, hop in y), hops in cells; cell -1 where it is from its own list, -2 where no link leads
+    there."""
     while True:
         back, side, other = (2, 3, 1) if turn < 2 else (0, 1, 3)
         forth = 1 if turn < 2 else -1
         bits = net.choice[c] >> (4 * (turn >> 1))
         if turn & 1 == 1:
             if bits & AHEAD:
-                return _over(net, np.int64(c), other), turn, 0, forth
+                return _over(net, c, column, other), turn, 0, forth
         else:
             way = bits & 7
             if way == BEHIND:
-                return _over(net, np.int64(c), side), turn, 0, -forth
+                return _over(net, c, column, side), turn, 0, -forth
             if way == BACK:
-                return _over(net, np.int64(c), back), turn + 1, -forth, 0
-            if way == BACK_AHEAD:
-                return _over(net, _over(net, np.int64(c), back), other), turn + 1, -forth, forth
-            if way == BACK_BEHIND:
-                return _over(net, _over(net, np.int64(c), back), side), turn + 1, -forth, -forth
+                return _over(net, c, column, back), turn + 1, -forth, 0
+            if way == BACK_AHEAD or way == BACK_BEHIND:
+                n, along = _over(net, c, column, back), other if way == BACK_AHEAD else side
+                step = forth if way == BACK_AHEAD else -forth
+                return _over(net, n, column - forth * net.ny, along), turn + 1, -forth, step
             if way == BEHIND_BACK:
-                return _over(net, _over(net, np.int64(c), side), back), turn + 1, -forth, -forth
+                n = _over(net, c, column, side)
+                return _over(net, n, column - forth, back), turn + 1, -forth, -forth
         if turn == 0:
             return np.int64(-1), 0, 0, 0
         turn -= 1
 
 
 @kernel(error_model="numpy", inline="always")
-def _over(net, c, way):
+def _over(net, c, column, way):
     """The cell that a link leads to; -2 where there is none."""
-    other = linked(net, c, way) if c >= 0 else np.int64(-2)
+    other = over(net, c, column, way) if c >= 0 else np.int64(-2)
     return other if other >= 0 else np.int64(-2)
 
 
@@ -62,7 +65,7 @@ def recall(field, column_start, nx, nearest):
     nearest[:] = np.inf
     for i in range(field.list_cell.shape[0]):
         c = field.list_cell[i]
-        nearest[c, 0], nearest[c, 1] = _place_in(field, i)
+        nearest[c, 0], nearest[c, 1] = _place_in(field, i, column_of(field, c))
     h = field.cell
     for turn in range(0, 4, 2):
         back, side, other = (2, 3, 1) if turn == 0 else (0, 1, 3)
@@ -91,7 +94,7 @@ def recall(field, column_start, nx, nearest):
                 if (choice[c] >> (2 * turn)) & AHEAD:
                     _take(nearest, c, linked(field, c, other), 0.0, forth)
     for c in range(cells):
-        nearest[c, 0], nearest[c, 1] = _settled(field, c, nearest[c, 0], nearest[c, 1])
+        nearest[c, 0], nearest[c, 1] = _settled(field, c, column_of(field, c), nearest[c, 0], nearest[c, 1])
 
 
 @kernel(error_model="numpy", inline="always")
@@ -102,12 +105,12 @@ def _take(nearest, c, n, dx, dy):
 
 
 @kernel(error_model="numpy", inline="always")
-def _place_in(net, own):
-    """The vector to the nearest place in list ``own`` from the centre of the cell that it is of; inf for list
-    -1."""
+def _place_in(net, own, column):
+    """The vector to the nearest place in list ``own`` from the centre of the cell that it is of, in
+    ``column``; inf for list -1."""
     if own < 0:
         return np.inf, np.inf
-    x, y = centre_of(net, net.list_cell[own])
+    x, y = middle_of_column(net, column)
     return nearest_in_list(net.blocker, net.list_start[own], net.list_start[own + 1], x, y)
 
 
@@ -121,20 +124,21 @@ def _after(x, y, dx, dy, h):
 
 
 @kernel(error_model="numpy")
-def _known(net, c):
-    """What cell ``c`` knew after the last turn."""
+def _known(net, c, column):
+    """What cell ``c`` of ``column`` knew after the last turn."""
     choice = net.choice
-    at, then, count = c, _LAST, 0
+    at, then, count, beside = c, _LAST, 0, column
     east, west, north, south = 0, 0, 0, 0
     while choice[at] != 0:
-        other, then, dx, dy = came_from(net, at, then)
+        other, then, dx, dy = came_from(net, at, beside, then)
         if other < 0:
             break
+        beside += dx * net.ny + dy
         east, west = east + (dx > 0), west + (dx < 0)
         north, south = north + (dy > 0), south + (dy < 0)
         at = other
         count += 1
-    x, y = _place_in(net, net.source[c])
+    x, y = _place_in(net, net.source[c], beside)
     if east * west == 0 and north * south == 0:  # one by one, as they were added
         for _ in range(east + west):
             x += net.cell if east else -net.cell
@@ -142,42 +146,58 @@ def _known(net, c):
             y += net.cell if north else -net.cell
         return x, y
     for hop in range(count - 1, -1, -1):  # there and back: each after those nearer to the place
-        at, then, dx, dy = c, _LAST, 0, 0
+        at, then, dx, dy, beside = c, _LAST, 0, 0, column
         for _ in range(hop + 1):
-            at, then, dx, dy = came_from(net, at, then)
+            at, then, dx, dy = came_from(net, at, beside, then)
+            beside += dx * net.ny + dy
         x, y = _after(x, y, dx, dy, net.cell)
     return x, y
 
 
 @kernel(error_model="numpy")
-def _settled(field, c, x, y):
-    """What `navmesh.surface.clearance.settle_clearance` makes of the vector (x, y) carried to cell ``c``: it
-    stays, or something nearer was found when the clearance was measured."""
+def _settled(field, c, column, x, y):
+    """What `navmesh.surface.clearance.settle_clearance` makes of the vector (x, y) carried to cell ``c`` of
+    ``column``: it stays, or something nearer was found when the clearance was measured."""
     if np.sqrt(x * x + y * y) == field.clearance[c]:
         return x, y
-    cx, cy = centre_of(field, c)
-    _, qx, qy = gap_at(field, c, cx, cy)
+    cx, cy = middle_of_column(field, column)
+    _, qx, qy = gap_in(field, c, column, cx, cy)
     return qx - cx, qy - cy
 
 
 @kernel(error_model="numpy")
-def nearest_of(net, c):
-    """The vector [m] from the centre of cell ``c`` to the nearest place where walking ends."""
+def nearest_in(net, c, column):
+    """The vector [m] from the centre of cell ``c`` of ``column`` to the nearest place where walking ends."""
     if net.nearest.shape[0] > 0:
         return net.nearest[c, 0], net.nearest[c, 1]
-    x, y = _known(net, np.int64(c))
-    return _settled(net, c, x, y)
+    x, y = _known(net, np.int64(c), column)
+    return _settled(net, c, column, x, y)
+
+
+@kernel(error_model="numpy")
+def nearest_of(net, c):
+    """`nearest_in` of a cell whose column is yet to be looked up."""
+    if net.nearest.shape[0] > 0:
+        return net.nearest[c, 0], net.nearest[c, 1]
+    return nearest_in(net, c, column_of(net, c))
+
+
+@kernel(error_model="numpy")
+def nearly_nearest_in(net, c, column):
+    """`nearest_in`, but for rounding: without going the way that the place was carried."""
+    if net.nearest.shape[0] > 0 or net.clearance[c] < 2.0 * net.cell:
+        return nearest_in(net, c, column)
+    source = np.int64(net.source[c])
+    if source < 0:
+        return np.inf, np.inf
+    beside = column_of(net, net.list_cell[source])
+    x, y = _place_in(net, source, beside)
+    cx, cy = middle_of_column(net, column)
+    px, py = middle_of_column(net, beside)
+    return x + (px - cx), y + (py - cy)
 
 
 @kernel(error_model="numpy")
 def nearly_nearest_of(net, c):
-    """`nearest_of`, but for rounding: without going the way that the place was carried."""
-    if net.nearest.shape[0] > 0 or net.clearance[c] < 2.0 * net.cell:
-        return nearest_of(net, c)
-    source = np.int64(net.source[c])
-    if source < 0:
-        return np.inf, np.inf
-    x, y = _place_in(net, source)
-    cx, cy = centre_of(net, c)
-    px, py = centre_of(net, net.list_cell[source])
-    return x + (px - cx), y + (py - cy)
+    """`nearly_nearest_in` of a cell whose column is yet to be looked up."""
+    return nearly_nearest_in(net, c, column_of(net, c))

@@ -16,7 +16,14 @@ from navmesh.surface.surface import Surface
 from navmesh.surface.windows import cells_within
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["cells_in", "cells_of_surface", "inside_of", "moved_cells", "renew_surface"]
+__all__ = [
+    "cells_in",
+    "cells_of_surface",
+    "inside_of",
+    "moved_cells",
+    "renew_surface",
+    "within_of",
+]
 
 
 def cells_of_surface(surface: Surface) -> Cells:
@@ -80,6 +87,16 @@ def cells_in(surface: Surface, window: Window) -> tuple[Any, np.ndarray]:
         clearance=clearance,
     )  # fmt: skip
     return part.field, where
+
+
+def within_of(column_start: np.ndarray, around: Window, window: Window) -> np.ndarray:
+    """(n,) bool: which of the cells of ``around`` by themselves (`cells_in`) are in ``window``, inside of
+    that."""
+    within = np.zeros(column_start[-1], np.bool_)
+    ny, near, far = around[3] - around[1], window[1] - around[1], window[3] - around[1]
+    for ix in range(window[0] - around[0], window[2] - around[0]):
+        within[column_start[ix * ny + near] : column_start[ix * ny + far]] = True
+    return within
 
 
 def moved_cells(cells: np.ndarray, before: Surface, surface: Surface, window: Window) -> np.ndarray:

@@ -10,10 +10,10 @@ from math import sqrt
 
 import numpy as np
 
-from navmesh.surface.clearance_field import centre_of, gap_at, stretch_gap
+from navmesh.surface.clearance_field import centre_of, gap_at, gap_in, middle_of_column, stretch_gap
 from navmesh.surface.columns import column_of
-from navmesh.surface.recall import nearest_of, nearly_nearest_of
-from navmesh.surface.storeys import linked
+from navmesh.surface.recall import nearest_in, nearly_nearest_in
+from navmesh.surface.storeys import linked, over
 from surefoot.kernels import kernel
 
 __all__ = ["half_width", "middle", "middle_beside", "widest_through"]
@@ -44,26 +44,30 @@ def half_width(field, c):
     neighbours know them: no wider body passes there. inf where it is not between two sides."""
     if field.nearest.shape[0] > 0:
         return _half_width(field, c)
-    vx, vy = nearly_nearest_of(field, c)
+    column = column_of(field, c)
+    vx, vy = nearly_nearest_in(field, c, column)
     far, source = field.clearance[c] >= 2.0 * field.cell, field.source[c]
     exact = not far  # whether v is known to the last bit
     least = np.inf
     for d in range(4):
-        n = linked(field, c, d)
-        hx = ((1 if d == 0 else 0) - (1 if d == 2 else 0)) * field.cell
-        hy = ((1 if d == 1 else 0) - (1 if d == 3 else 0)) * field.cell
+        n = over(field, c, column, d)
+        across, along = (
+            (1 if d == 0 else 0) - (1 if d == 2 else 0),
+            (1 if d == 1 else 0) - (1 if d == 3 else 0),
+        )
+        hx, hy, beside = across * field.cell, along * field.cell, column + across * field.ny + along
         wx, wy = 0.0, 0.0
         if n >= 0:
             beyond = field.clearance[n] >= 2.0 * field.cell
             if far and beyond and field.source[n] == source:
                 continue  # both look to the same place
-            wx, wy = nearly_nearest_of(field, n)
+            wx, wy = nearly_nearest_in(field, n, beside)
             if vx * (hx + wx) + vy * (hy + wy) > 0.0:
                 continue
             if beyond:
-                wx, wy = nearest_of(field, n)
+                wx, wy = nearest_in(field, n, beside)
         if not exact:
-            vx, vy = nearest_of(field, c)
+            vx, vy = nearest_in(field, c, column)
             exact = True
         wx, wy = hx + wx, hy + wy
         if vx * wx + vy * wy < -1e-6:
@@ -72,33 +76,39 @@ def half_width(field, c):
 
 
 @kernel(error_model="numpy", inline="always")
-def _under(field, k, x, y):
-    """The cell linked to cell ``k`` that (x, y), at most a cell away, is in; ``k`` where there is none."""
-    cx, cy = centre_of(field, k)
+def _under(field, k, column, x, y):
+    """The cell linked to cell ``k`` of ``column`` that (x, y), at most a cell away, is in, ``k`` where there
+    is none; and its column."""
+    k = np.int64(k)
+    cx, cy = middle_of_column(field, column)
     half = 0.5 * field.cell
     across = 0 if x - cx > half else (2 if cx - x > half else -1)
     along = 1 if y - cy > half else (3 if cy - y > half else -1)
     if across < 0 and along < 0:
-        return k
+        return k, column
+    step = field.ny if across == 0 else (-field.ny if across == 2 else 0)
+    turn = 1 if along == 1 else (-1 if along == 3 else 0)
     if across < 0 or along < 0:
-        beside = linked(field, k, max(across, along))
-        return beside if beside >= 0 else k
-    beside = linked(field, k, across)
-    corner = linked(field, beside, along) if beside >= 0 else -1
+        beside = over(field, k, column, max(across, along))
+        return (beside, column + step + turn) if beside >= 0 else (k, column)
+    beside, other = over(field, k, column, across), np.int64(-1)
+    corner = over(field, beside, column + step, along) if beside >= 0 else np.int64(-1)
     if corner < 0:
-        other = linked(field, k, along)
-        corner = linked(field, other, across) if other >= 0 else -1
-        if corner < 0:
-            corner = beside if beside >= 0 else (other if other >= 0 else k)
-    return corner
+        other = over(field, k, column, along)
+        corner = over(field, other, column + turn, across) if other >= 0 else np.int64(-1)
+    if corner >= 0:
+        return corner, column + step + turn
+    if beside >= 0:
+        return beside, column + step
+    return (other, column + turn) if other >= 0 else (k, column)
 
 
 @kernel(error_model="numpy")
 def middle(field, k, x, y, room):
     """The place on the way from what is nearest to (x, y), over (x, y) and at most ``room`` [m] on, that is
     farthest from where walking ends: (cell, x, y, distance). ``k`` is the cell of (x, y) or one beside it."""
-    start = _under(field, k, x, y)
-    gap, qx, qy = gap_at(field, start, x, y)
+    start, column = _under(field, k, column_of(field, k), x, y)
+    gap, qx, qy = gap_in(field, start, column, x, y)
     if not 1e-9 < gap < np.inf:
         return start, x, y, gap
     ux, uy = (x - qx) / gap, (y - qy) / gap
@@ -106,13 +116,14 @@ def middle(field, k, x, y, room):
     for _ in range(_HALVINGS):
         s = 0.5 * (near + far)
         px, py = x + s * ux, y + s * uy
-        beyond, qx, qy = gap_at(field, _under(field, start, px, py), px, py)
+        at, beside = _under(field, start, column, px, py)
+        beyond, qx, qy = gap_in(field, at, beside, px, py)
         if (qx - x) * ux + (qy - y) * uy > 0.0:  # something ahead is nearer, or has been passed
             far = s
         else:
             near, gap = s, beyond
     x, y = x + near * ux, y + near * uy
-    return _under(field, start, x, y), x, y, gap
+    return _under(field, start, column, x, y)[0], x, y, gap
 
 
 @kernel(error_model="numpy")
@@ -130,12 +141,12 @@ def _least_gap(field, k, ax, ay, bx, by):
     if length < 1e-9:
         return gap_at(field, k, ax, ay)[0]
     ux, uy = (bx - ax) / length, (by - ay) / length
-    least = np.inf
+    least, column = np.inf, column_of(field, k)
     for part in range(2):
         low, high = 0.5 * part * length, 0.5 * (part + 1) * length
-        k = _under(field, k, ax + 0.5 * (low + high) * ux, ay + 0.5 * (low + high) * uy)
-        cx, cy = centre_of(field, k)
-        least = stretch_gap(field, k, column_of(field, k), cx, cy, ax, ay, ux, uy, low, high, least)[0]
+        k, column = _under(field, k, column, ax + 0.5 * (low + high) * ux, ay + 0.5 * (low + high) * uy)
+        cx, cy = middle_of_column(field, column)
+        least = stretch_gap(field, k, column, cx, cy, ax, ay, ux, uy, low, high, least)[0]
     return least
 
 

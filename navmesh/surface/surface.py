@@ -37,7 +37,7 @@ class Surface:
     column_start: np.ndarray
     """(nx·ny + 1,) int32: the cells of column c are column_start[c]:column_start[c + 1], lowest first."""
     milestone: np.ndarray
-    """(⌈n / 32⌉ + 1,) int32: the columns of some of the cells, see `navmesh.surface.columns`."""
+    """(⌈n / 32⌉ + 1,) int32: the columns of every 32nd cell and of the last (`columns.py`)."""
     floor: FloorStore
     """`height` and `gradient` of the cells, packed."""
     storey: np.ndarray

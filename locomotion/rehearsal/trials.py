@@ -134,7 +134,7 @@ class Rehearsal(Generic[_T]):
     Attributes:
       question: whose first ``most`` choices are tried.
       outcome: of the best choice so far.
-      tried_for: ticks of the present trial, which who runs it counts.
+      tried_for: ticks of the present trial so far; whoever runs the rehearsal adds them.
     """
 
     def __init__(self, question: Question, most: int | None = None) -> None:

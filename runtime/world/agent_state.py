@@ -73,8 +73,8 @@ class AgentState:
         elif errand.waits:
             raise RuntimeInputError(f"{name!r} waits for nothing")
         try:
-            by_hand(None, **self.style)
-        except LocomotionError as error:
+            checked_style(self.style)
+        except RuntimeInputError as error:
             raise RuntimeInputError(f"the style of {name!r}: {error}") from None
         check_size(name, self.style, self.detail)
 

@@ -35,6 +35,8 @@ from locomotion.gaits.policy.law import (
     BOTH_BEAR,
     BRAKING,
     CALM,
+    CHANGE_SHARE,
+    ENDS_TURNING,
     FACING,
     FASTEST_WALK,
     FEET_OFF,
@@ -57,6 +59,7 @@ from locomotion.gaits.policy.law import (
     REST_TRIM_RATE,
     RUN_ACCELERATION,
     RUN_BRAKING,
+    RUN_SIDEWAYS,
     RUN_TRIM,
     RUNS_FROM,
     SETTLES_AT,
@@ -64,11 +67,11 @@ from locomotion.gaits.policy.law import (
     SETTLES_WITHIN,
     SETTLING,
     SHIFTING,
+    SHOWN_WITHIN,
+    SLOWEST_RUN,
     SOLE_AHEAD,
     SOLE_ASIDE,
     STEADY,
-    STOPS_AT,
-    STOPS_WITHIN,
     STRAIGHT,
     TRIM_IN_USE,
     TRIM_RATE,
@@ -137,7 +140,11 @@ def _row(speeds, speed):
 
 @kernel
 def _shown_speed(memory):
-    return memory[at.SPEED] if memory[at.FAST] > 0.0 else min(memory[at.SPEED], FASTEST_WALK)
+    speed = memory[at.SPEED]
+    if not memory[at.FAST] > 0.0:
+        return min(speed, FASTEST_WALK)
+    body = speed + memory[at.LAG_AHEAD]
+    return min(max(speed, body - SHOWN_WITHIN), body + SHOWN_WITHIN)
 
 
 @kernel
@@ -208,20 +215,24 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
     memory[at.HEADING] = _wrap(yaw - min(max(off, -MOST_TWIST), MOST_TWIST))
     c, s = math.cos(memory[at.HEADING]), math.sin(memory[at.HEADING])
     ahead, left = c * qvel[0] + s * qvel[1], c * qvel[1] - s * qvel[0]
-    wanted = 0.0 if memory[at.RESTED] < 0.0 else asked[at.ASKED_SPEED] - memory[at.TOLD]
-    lag = memory[at.LAG_AHEAD] + memory[at.TRIM]
-    fast, steady = memory[at.FAST] > 0.0, abs(wanted) < STEADY
+    fast, told = memory[at.FAST] > 0.0, memory[at.TOLD]
+    ends = fast and asked[at.ASKED_SPEED] < SLOWEST_RUN
+    wanted = (SLOWEST_RUN if ends else asked[at.ASKED_SPEED]) - told
+    if memory[at.RESTED] < 0.0:
+        wanted = 0.0
+    lag, steady = memory[at.LAG_AHEAD] + memory[at.TRIM], abs(wanted) < STEADY
     off = min(MOST_BEHIND + LATER * memory[at.TOLD], MOST_LATE) if fast else MOST_BEHIND
     if lag < -off:
         wanted = min(wanted, 0.0)
-    if fast and lag > MOST_AHEAD:
-        wanted = max(wanted, 0.0)
     slower, faster = BRAKING, ACCELERATION
     if fast:
-        share = (memory[at.TOLD] - RUN_BRAKING[1]) / (RUN_BRAKING[2] - RUN_BRAKING[1])
+        share = (told - RUN_BRAKING[1]) / (RUN_BRAKING[2] - RUN_BRAKING[1])
         slower += min(max(share, 0.0), 1.0) * (RUN_BRAKING[0] - BRAKING)
+        slower *= 1.0 - min(max(lag / MOST_AHEAD, 0.0), 1.0)
         faster = RUN_ACCELERATION
-    memory[at.TOLD] += min(max(wanted, -slower * at.POLICY_DT), faster * at.POLICY_DT)
+    change = min(max(wanted, -slower * at.POLICY_DT), faster * at.POLICY_DT)
+    memory[at.TOLD] += change
+    memory[at.CHANGE] += CHANGE_SHARE * (change / at.POLICY_DT - memory[at.CHANGE])
     slow = min(max(1.0 - memory[at.TOLD] / REST_TRIM_ENDS, 0.0), 1.0) * memory[at.RUNNING]
     slow = slow if to_stand else 0.0
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
@@ -235,12 +246,14 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
     straight, off = abs(memory[at.TURN_RATE]) < STRAIGHT, max(abs(lag), abs(memory[at.LAG_LEFT]))
     settled = straight and off < SETTLES_WITHIN
     settled = settled and memory[at.TOLD] < (SETTLES_AT if steady else SETTLES_SLOWING)
-    settled = settled or (memory[at.TOLD] < STOPS_AT and off < STOPS_WITHIN)
     begins = runs_on and straight and memory[at.TOLD] > BEGINS_AT and off < BEGINS_WITHIN
-    runs_on = runs_on and memory[at.TOLD] >= STOPS_AT
     goes_on = begins or (fast and (runs_on or not settled))
     memory[at.FAST] = 1.0 if goes_on and memory[at.RUNNING] > 0.0 else 0.0
     turn = 0.0 if rests else asked[at.ASKED_TURN]
+    if fast:
+        tightest = RUN_SIDEWAYS / max(memory[at.SPEED] + memory[at.LAG_AHEAD], SLOWEST_RUN)
+        tightest = min(tightest, ENDS_TURNING) if ends else tightest
+        turn = min(max(turn, -tightest), tightest)
     most = TURNING * at.POLICY_DT
     memory[at.TURN_RATE] += min(max(turn - memory[at.TURN_RATE], -most), most)
     memory[at.LAG_AHEAD] += LAG_SHARE * (ahead - memory[at.SPEED] - memory[at.LAG_AHEAD])
@@ -280,6 +293,7 @@ def _observe(memory, felt, qpos, qvel, out):
     out[_TIMING + 2], out[_TIMING + 3] = running * math.sin(2 * angle), running * math.cos(2 * angle)
     out[_TIMING + 4] = running
     out[_ASKED], out[_ASKED + 1] = memory[at.SPEED], memory[at.TURN_RATE]
+    out[at.CHANGE_SEEN] = memory[at.CHANGE]
 
 
 @kernel
@@ -350,7 +364,7 @@ def decide_tick(motion, walk, stand, run, memory, asked, felt, qpos, qvel, ctrl)
     """Decide, and write the targets ``ctrl`` (39,) [rad] to hold for `layout.POLICY_DT`.
 
     motion: the arrays of `locomotion.gaits.policy.motion.Motion`. walk, stand, run: the networks of a person
-    who walks, stands and runs: mean and deviation (82,) of the inputs, and weights and biases of three
+    who walks, stands and runs: mean and deviation (83,) of the inputs, and weights and biases of three
     layers, float32. The rest: see above.
     """
     speeds, periods, joints, rates, stance, means = motion

@@ -23,6 +23,8 @@ from locomotion.gaits.policy.layout import (
     ASKED_SPEED,
     ASKED_TURN,
     BODY_WEIGHT,
+    CHANGE,
+    CHANGE_SEEN,
     CONTACTS,
     FAST,
     FAST_RATE,
@@ -72,26 +74,32 @@ from locomotion.gaits.policy.motion import Motion
 
 __all__ = [
     "ACCELERATION", "AT_REST", "BEARING", "BEARS", "BEGINS_AT", "BEGINS_WITHIN", "BOTH_BEAR", "BRAKING",
-    "CALM", "FACING", "FASTEST_WALK", "FEET_OFF", "FIRST_STEPS", "LAG_SHARE", "LATER", "LEARNED_AHEAD",
-    "LEARNED_BRAKING", "LIFT_OFF", "MOST_AHEAD", "MOST_ASKEW", "MOST_BEHIND", "MOST_LATE", "MOST_MISS",
+    "CALM", "CHANGE_SHARE", "ENDS_TURNING", "FACING", "FASTEST_WALK", "FEET_OFF", "FIRST_STEPS",
+    "LAG_SHARE", "LATER", "LIFT_OFF", "MOST_AHEAD", "MOST_ASKEW", "MOST_BEHIND", "MOST_LATE", "MOST_MISS",
     "MOST_TRIM", "MOST_TWIST", "PENDULUM", "QUICKENS", "QUICKENS_FROM", "REACH", "REST_TRIM",
-    "REST_TRIM_ENDS", "REST_TRIM_RATE", "RUNS_FROM", "RUN_ACCELERATION", "RUN_BRAKING", "RUN_TRIM",
-    "SETTLES_AT", "SETTLES_SLOWING", "SETTLES_WITHIN", "SETTLING", "SHIFTING", "SOLE_AHEAD", "SOLE_ASIDE",
-    "STEADY", "STOPS_AT", "STOPS_WITHIN", "STRAIGHT", "TRIM_IN_USE", "TRIM_RATE", "TURNING", "UNWINDS",
-    "Seen", "advance", "along", "decide", "mirrored", "observe", "own_period", "pace_share", "rate",
-    "shown_speed", "standing_miss", "targets", "turned_feet", "turned_in", "up_and_yaw", "wrap",
+    "REST_TRIM_ENDS", "REST_TRIM_RATE", "RUNS_FROM", "RUN_ACCELERATION", "RUN_BRAKING", "RUN_SIDEWAYS",
+    "RUN_TRIM", "SETTLES_AT", "SETTLES_SLOWING", "SETTLES_WITHIN", "SETTLING", "SHIFTING", "SHOWN_WITHIN",
+    "SLOWEST_RUN", "SOLE_AHEAD", "SOLE_ASIDE", "STEADY", "STRAIGHT", "TRIM_IN_USE", "TRIM_RATE", "TURNING",
+    "UNWINDS", "Seen", "advance", "along", "decide", "mirrored", "observe", "own_period", "pace_share",
+    "rate", "shown_speed", "standing_miss", "targets", "turned_feet", "turned_in", "up_and_yaw", "wrap",
 ]  # fmt: skip
 
 ACCELERATION, BRAKING, TURNING = 1.0, 0.8, 2.0
 """[m/s^2] up and down, and [rad/s^2], at which speed and turn rate follow those asked for."""
-RUN_ACCELERATION = 1.8
+RUN_ACCELERATION = 2.2
 """[m/s^2] with which the speed told rises while a person runs."""
-RUN_BRAKING, MOST_AHEAD = (3.5, 0.5, 2.0), 1.0
+RUN_BRAKING, MOST_AHEAD = (3.6, 0.7, 2.2), 1.0
 """[m/s^2] with which the speed told falls while a person runs, above the third number [m/s]; below that it
-falls more slowly, at the second number as slowly as `BRAKING`. It waits while the body is faster than told by
-more than `MOST_AHEAD` [m/s]."""
-LEARNED_BRAKING, LEARNED_AHEAD = (3.0, 0.9, 2.4), 0.8
-"""The same while it is learned."""
+falls more slowly, at the second number as slowly as `BRAKING`. The faster the body is than told, the more
+slowly it falls, too, and from `MOST_AHEAD` [m/s] on not at all."""
+SLOWEST_RUN, ENDS_TURNING, RUN_SIDEWAYS = 1.1, 0.57, 1.6
+"""[m/s] that a running person is told at least: the walk takes over there. [rad/s] that it turns at most
+while it slows down for that, and [m/s^2] in any bend."""
+SHOWN_WITHIN = 0.4
+"""[m/s] that the reference motion of a run is faster or slower than the body at most: nobody who still runs
+is shown how to walk."""
+CHANGE_SHARE = 0.15
+"""The same share as `LAG_SHARE`, of how fast the speed told changes."""
 MOST_LATE, LATER, RUN_TRIM, UNWINDS = 0.8, 0.25, 0.12, 0.03
 """While a person runs, the speed told waits for a body that is slower by more than `MOST_BEHIND` and the
 share `LATER` of the speed, but at most `MOST_LATE` [m/s]. What is added to the speed told is at most the
@@ -108,8 +116,6 @@ most then."""
 SETTLES_AT, SETTLES_SLOWING, SETTLES_WITHIN, STEADY = 1.7, 1.2, 0.25, 0.05
 """[m/s] told, up to which a run ends if that is what is asked for, and if more or less is; the body keeps to
 it within so much, and turns no more than that; and how far from what is asked counts as that."""
-STOPS_AT, STOPS_WITHIN = 0.3, 0.5
-"""[m/s] told, below which it ends in any case, if the body keeps to it within so much."""
 TRIM_RATE, MOST_TRIM, TRIM_IN_USE = 0.5, 0.15, 0.4
 """Part of the error of the speed that is added to it, per second, and the share of the speed that is added at
 most, first while the policy is learned, then in worlds."""
@@ -218,7 +224,7 @@ def observe(memory: NDArray[np.float64], seen: Seen) -> NDArray[np.float64]:
         [np.sin(angle), np.cos(angle), np.sin(2 * angle), np.cos(2 * angle), np.ones(len(memory))], axis=1
     )
     out[:, TIMING] = waves * memory[:, RUNNING, None]
-    out[:, ASKED] = memory[:, [SPEED, TURN_RATE]]
+    out[:, ASKED], out[:, CHANGE_SEEN] = memory[:, [SPEED, TURN_RATE]], memory[:, CHANGE]
     out[half] = out[half][:, MIRROR_OBSERVED] * SIGN_OBSERVED
     return out
 
@@ -238,8 +244,10 @@ def pace_share(memory: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def shown_speed(memory: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n,) [m/s]: the speed at which the reference motion is read."""
-    most = np.where(memory[:, FAST] > 0.0, np.inf, FASTEST_WALK)
-    return np.minimum(memory[:, SPEED], most)
+    speed = memory[:, SPEED]
+    body = speed + memory[:, LAG_AHEAD]
+    near = np.clip(speed, body - SHOWN_WITHIN, body + SHOWN_WITHIN)
+    return np.where(memory[:, FAST] > 0.0, near, np.minimum(speed, FASTEST_WALK))
 
 
 def own_period(memory: NDArray[np.float64], motion: Motion) -> NDArray[np.float64]:
@@ -352,20 +360,23 @@ def advance(
     heading, yaw = memory[:, HEADING] + POLICY_DT * memory[:, TURN_RATE], up_and_yaw(seen.qpos)[1]
     memory[:, HEADING] = wrap(yaw - np.clip(wrap(yaw - heading), -MOST_TWIST, MOST_TWIST))
     v = along(memory[:, HEADING], seen.qvel[:, :3])
-    wanted = np.where(memory[:, RESTED] < 0.0, 0.0, asked[:, ASKED_SPEED] - memory[:, TOLD])
+    fast, told = memory[:, FAST] > 0.0, memory[:, TOLD].copy()
+    ends = fast & (asked[:, ASKED_SPEED] < SLOWEST_RUN)
+    wanted = np.where(ends, SLOWEST_RUN, asked[:, ASKED_SPEED]) - told
+    wanted = np.where(memory[:, RESTED] < 0.0, 0.0, wanted)
     lag = memory[:, LAG_AHEAD] + memory[:, TRIM] * steadies
-    fast = memory[:, FAST] > 0.0
     steady = np.abs(wanted) < STEADY
     off = np.where(fast, np.minimum(MOST_BEHIND + LATER * memory[:, TOLD], MOST_LATE), MOST_BEHIND)
     behind = waits & (lag < -off)
     wanted = np.where(behind, np.minimum(wanted, 0.0), wanted)
-    ahead = MOST_AHEAD if steadies else LEARNED_AHEAD
-    wanted = np.where(fast & (lag > ahead), np.maximum(wanted, 0.0), wanted)
-    most, less, full = RUN_BRAKING if steadies else LEARNED_BRAKING
-    runs = np.clip((memory[:, TOLD] - less) / (full - less), 0.0, 1.0) * memory[:, FAST]
+    most, less, full = RUN_BRAKING
+    runs = np.clip((told - less) / (full - less), 0.0, 1.0) * fast
     slower = BRAKING + runs * (most - BRAKING)
+    slower *= 1.0 - np.clip(lag / MOST_AHEAD, 0.0, 1.0) * fast
     faster = np.where(fast, RUN_ACCELERATION, ACCELERATION)
-    memory[:, TOLD] += np.clip(wanted, -slower * POLICY_DT, faster * POLICY_DT)
+    change = np.clip(wanted, -slower * POLICY_DT, faster * POLICY_DT)
+    memory[:, TOLD] += change
+    memory[:, CHANGE] += CHANGE_SHARE * (change / POLICY_DT - memory[:, CHANGE])
     slow = np.clip(1.0 - memory[:, TOLD] / REST_TRIM_ENDS, 0.0, 1.0) * memory[:, RUNNING]
     slow *= to_stand & steadies
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
@@ -379,13 +390,14 @@ def advance(
     straight, aside = np.abs(memory[:, TURN_RATE]) < STRAIGHT, np.abs(memory[:, LAG_LEFT])
     settled = straight & (memory[:, TOLD] < np.where(steady, SETTLES_AT, SETTLES_SLOWING))
     settled &= np.maximum(np.abs(lag), aside) < SETTLES_WITHIN
-    settled |= (memory[:, TOLD] < STOPS_AT) & (np.maximum(np.abs(lag), aside) < STOPS_WITHIN)
     begins = runs_on & straight & (memory[:, TOLD] > BEGINS_AT)
     begins &= np.maximum(np.abs(lag), aside) < BEGINS_WITHIN
-    runs_on &= memory[:, TOLD] >= STOPS_AT
     memory[:, FAST] = goes_on & (begins | (fast & (runs_on | ~settled)))
     most = TURNING * POLICY_DT
     turn = np.where(rests, 0.0, asked[:, ASKED_TURN])
+    tightest = RUN_SIDEWAYS / np.maximum(memory[:, SPEED] + memory[:, LAG_AHEAD], SLOWEST_RUN)
+    tightest = np.where(ends, np.minimum(tightest, ENDS_TURNING), tightest)
+    turn = np.where(fast, np.clip(turn, -tightest, tightest), turn)
     memory[:, TURN_RATE] += np.clip(turn - memory[:, TURN_RATE], -most, most)
     memory[:, LAG_AHEAD] += LAG_SHARE * (v[:, 0] - memory[:, SPEED] - memory[:, LAG_AHEAD])
     memory[:, LAG_LEFT] += LAG_SHARE * (v[:, 1] - memory[:, LAG_LEFT])

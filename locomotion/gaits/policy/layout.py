@@ -11,7 +11,7 @@ from locomotion.body.person import CONTROL_DT, JOINT_NAMES, MASS
 
 __all__ = [
     "ACTION", "ACTIONS", "ANGLES", "ANKLE_SOLE", "ARM_SWING", "ASKED", "ASKED_SPEED", "ASKED_TURN",
-    "BODY_WEIGHT", "CONTACTS", "FAST", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT",
+    "BODY_WEIGHT", "CHANGE", "CHANGE_SEEN", "CONTACTS", "FAST", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT",
     "FEET_RISE", "FELT_SIZE", "FLOOR", "FORCES", "GRAVITY_UP", "HEADING", "HEAD_BEND", "HEELS_AND_BALLS",
     "HEIGHT_SEEN", "HIP_ROTATIONS", "INPUTS", "JOINTS", "LAGS", "LAG_AHEAD", "LAG_LEFT", "LEAD", "LEANING",
     "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "MOST_INPUT", "PHASE", "POLICY_DT", "RATES",
@@ -77,31 +77,33 @@ _F = 13 + 2 * N
 FEET_RISE, FEET_AHEAD, FEET_LEFT = slice(_F, _F + 6), slice(_F + 6, _F + 8), slice(_F + 8, _F + 10)
 CONTACTS, TIMING = slice(_F + 10, _F + 14), slice(_F + 14, _F + 19)
 ASKED = slice(_F + 19, _F + 21)
-INPUTS = _F + 21
+CHANGE_SEEN = _F + 21
+INPUTS = _F + 22
 """Numbers observed: height of the root over the ground [m]; the world's up in the root's frame; velocity
 ahead, left, up [m/s]; angular velocity [rad/s] in the root's frame; yaw from the heading [rad]; low-passed
 errors of the speed ahead and to the left [m/s]; angles [rad] and a tenth of the rates [rad/s] of `JOINTS`;
 heights of `SOLE_POINTS` over the root; both heels ahead, and left, of it [m]; contacts of foot and toes,
 right and left, 0 to 1; sine and cosine of the cycle and of twice the cycle, whether it goes on; speed [m/s]
-and turn rate [rad/s] asked for."""
+and turn rate [rad/s] asked for; how fast that speed changes [m/s^2]."""
 MOST_INPUT = 8.0
 """Deviations from the mean by which an input counts at most."""
 
 # ---- memory
 PHASE, RUNNING, RESTED, HEADING, SPEED, TURN_RATE, LAG_AHEAD, LAG_LEFT, STARTED, TOLD, TRIM = range(11)
-FLOOR, FAST = 11, 12
-STEP_RATE, ARM_SWING, SPREAD, TRUNK_LEAN, HEAD_BEND = range(13, 18)
-STYLE = slice(13, 18)
-_M = 18
+FLOOR, FAST, CHANGE = 11, 12, 13
+STEP_RATE, ARM_SWING, SPREAD, TRUNK_LEAN, HEAD_BEND = range(14, 19)
+STYLE = slice(14, 19)
+_M = 19
 ACTION = slice(_M, _M + ACTIONS)
 STATE_SIZE = _M + ACTIONS
 """The memory of a policy: share of the cycle, 0 to 1, from the right heel's strike; whether it goes on; [s]
-since it has nothing to do but to stand, below 0 while it sets off; heading [rad], speed [m/s] and turn
-rate [rad/s] that it keeps to; low-passed errors of the speed; whether it has decided before; speed [m/s]
-that follows the one asked for, and what it adds to that because it is too slow or too fast; height of the
-ground under it [m], which whoever moves it over a ground keeps up to date; whether it runs, or has not slowed
-down from a run to a walk yet; its style (`locomotion.gaits.policy.style`), all 0 in the usual one; and its
-last decisions, in the person's own left and right."""
+since it has nothing to do but to stand, below 0 while it sets off; heading [rad], speed [m/s] and turn rate
+[rad/s] that it keeps to; low-passed errors of the speed; whether it has decided before; speed [m/s] that
+follows the one asked for, and what it adds to that because it is too slow or too fast; height of the ground
+under it [m], which whoever moves it over a ground keeps up to date; whether it runs, or has not slowed down
+from a run to a walk yet; how fast the speed that it follows changes, low-passed [m/s^2]; its style
+(`locomotion.gaits.policy.style`), all 0 in the usual one; and its last decisions, in the person's own left
+and right."""
 ASKED_SPEED, ASKED_TURN = 0, 1
 """What a caller asks for: speed [m/s] and turn rate [rad/s]."""
 

@@ -76,7 +76,7 @@ def _check(header: _PolicyHeader, arrays: dict[str, np.ndarray]) -> str | None:
 _N = len(JOINTS)
 POLICY_FILE = Schema(
     kind="policy",
-    version=3,
+    version=4,
     header=_PolicyHeader,
     arrays={
         "speeds": speeds("speeds"),

@@ -17,24 +17,24 @@ from locomotion.training.policies.network import Adam, Layers, Values, backward,
 __all__ = ["Agent", "Batch", "advantages"]
 
 HIDDEN = (128, 128)
-DISCOUNT, TRACE = 0.975, 0.95
+TRACE = 0.95
 _CLIP, _EPOCHS, _PART = 0.2, 4, 2048
 _CHANGE = 0.018  # wanted divergence of the new policy from the old one
 _CRITIC_RATE, _SLOWEST, _FASTEST = 1e-3, 2e-5, 2e-3
-_LEAST_NOISE, _MOST_NOISE = 0.04, 0.5
 _LEAST_VARIANCE = 1e-4  # of an input
 _FORGET = 2_000_000.0  # samples after which statistics of the inputs hardly change
 _EVERY = 7  # part of the samples on which the divergence is measured
 
 
 def advantages(
-    reward: NDArray[np.float64], value: NDArray[np.float32], done: NDArray[np.bool_]
+    reward: NDArray[np.float64], value: NDArray[np.float32], done: NDArray[np.bool_], discount: float
 ) -> NDArray[np.float64]:
-    """How much better than expected things went, (t, n), from rewards (t, n), values (t + 1, n) and ends."""
+    """How much better than expected things went, (t, n), from rewards (t, n), values (t + 1, n) and ends.
+    ``discount``: what a reward is worth a decision later."""
     gained, ahead = np.zeros_like(reward), np.zeros(reward.shape[1])
     for t in range(len(reward) - 1, -1, -1):
         goes_on = 1.0 - done[t]
-        ahead = reward[t] + DISCOUNT * value[t + 1] * goes_on - value[t] + DISCOUNT * TRACE * goes_on * ahead
+        ahead = reward[t] + discount * value[t + 1] * goes_on - value[t] + discount * TRACE * goes_on * ahead
         gained[t] = ahead
     return gained
 
@@ -71,6 +71,7 @@ class Agent:
             np.ones(inputs, np.float32),
             0.01,
         )
+        self._limits = self.spread[0], self.spread[0]
         self.rate = 3e-4
         self._improve, self._improve_critic = Adam([*self.actor, self.spread], 1.0), Adam(self.critic, 5.0)
 
@@ -115,20 +116,24 @@ class Agent:
         e = self.rng.standard_normal(means.shape).astype(np.float32)
         return means + np.exp(self.spread) * e, -0.5 * (e * e).sum(axis=1) - self.spread.sum()
 
-    def limit_noise(self, most: float) -> None:
-        """Try decisions at most this far from the means."""
-        np.minimum(self.spread, np.float32(np.log(most)), out=self.spread)
+    def limit_noise(self, least: float, most: float) -> None:
+        """Try decisions so far from the means, on average, as learning finds best between these limits. Below
+        0.07 hardly any of them leads to a fall, so that learning forgets how not to fall."""
+        self._limits = np.log(np.float32(least)), np.log(np.float32(most))
+        np.clip(self.spread, *self._limits, out=self.spread)
 
-    def learn(self, batch: Batch) -> float:
-        """Improve policy and critic on a batch; gives how much the policy changed."""
+    def learn(self, batch: Batch, decides: bool = True) -> float:
+        """Improve the critic on a batch, and the policy if it ``decides`` anew; gives how much it changed."""
         count, before, change = len(batch.inputs), self.spread.copy(), 0.0
         for _ in range(_EPOCHS):
             order = self.rng.permutation(count)
             for k in range(0, count - min(_PART, count) + 1, _PART):
-                self._learn_part(batch, order[k : k + _PART])
+                self._learn_part(batch, order[k : k + _PART], decides)
             change = self._change(batch, before)
             if change > 2.0 * _CHANGE:
                 break
+        if not decides:
+            return change
         if change > 2.0 * _CHANGE:
             self.rate = max(self.rate / 1.4, _SLOWEST)
         elif change < _CHANGE / 1.5:
@@ -147,9 +152,10 @@ class Agent:
         cost = (-(gain * ratio * ~clipped) / len(part)).astype(np.float32)[:, None]
         return [*backward(self.actor, values, cost * (e / noise)), (cost * (e * e - 1.0)).sum(axis=0)]
 
-    def _learn_part(self, batch: Batch, part: NDArray[np.int64]) -> None:
-        self._improve.step([*self.actor, self.spread], self.slopes(batch, part), self.rate)
-        np.clip(self.spread, np.log(_LEAST_NOISE), np.log(_MOST_NOISE), out=self.spread)
+    def _learn_part(self, batch: Batch, part: NDArray[np.int64], decides: bool) -> None:
+        if decides:
+            self._improve.step([*self.actor, self.spread], self.slopes(batch, part), self.rate)
+            np.clip(self.spread, *self._limits, out=self.spread)
         values = forward(self.critic, batch.inputs[part])
         off = values[-1][:, 0] - batch.returns[part]
         slopes = backward(self.critic, values, (2.0 / len(part) * off).astype(np.float32)[:, None])

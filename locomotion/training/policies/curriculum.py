@@ -21,11 +21,13 @@ class Stage:
       stands: whether standing is learned, and not the walk. It is over for who has to make a step.
       runs: whether running is learned, and slowing down from it, and not the walk.
       from_starts: share of those who begin in one of the given states, if there are any.
-      changes: whether orders change, every 3 s on average.
+      changes: [s] on average from one order to the next; 0: they do not change.
+      steadies: whether people are helped not to creep away in place and to keep their speed, as in worlds.
       waits: whether the policy is not told to be faster while its body is too slow, as in worlds. That
         teaches a safe walk, but a slow one; without it the policy learns to keep up.
       noise: standard deviation of what is tried, at the stage's beginning and at its end.
       timestep: of the physics [s].
+      fall: cost of a fall.
       longest: decisions after which everybody begins anew.
       weights: of the terms of the reward (`rewards.TERMS`), where they differ from `rewards.WEIGHTS`.
     """
@@ -40,10 +42,12 @@ class Stage:
     stands: bool = False
     runs: bool = False
     from_starts: float = 0.0
-    changes: bool = False
+    changes: float = 0.0
+    steadies: bool = False
     waits: bool = True
     noise: tuple[float, float] = (0.2, 0.2)
     timestep: float = 0.005
+    fall: float = 0.0
     longest: int = 400
     weights: dict[str, float] = field(default_factory=dict)
 
@@ -57,20 +61,20 @@ WALKING = (
         weights={"impact": 0.0, "slip": -0.3},
     ),
     Stage(
-        "all speeds", 1_500_000, (0.3, 2.2), turn=0.8, push=200.0, slope=0.04, changes=True,
+        "all speeds", 1_500_000, (0.3, 2.2), turn=0.8, push=200.0, slope=0.04, changes=3.0,
         noise=(0.14, 0.12), timestep=_COARSE, longest=500,
     ),
     Stage(
         "all orders", 3_000_000, (0.3, 2.2), turn=1.3, push=250.0, slope=0.04, stand=0.3, from_starts=0.3,
-        changes=True, noise=(0.12, 0.09), timestep=_COARSE, longest=500,
+        changes=3.0, noise=(0.12, 0.09), timestep=_COARSE, longest=500,
     ),
     Stage(
         "careful", 6_000_000, (0.3, 2.2), turn=1.3, push=300.0, slope=0.05, stand=0.3, from_starts=0.3,
-        changes=True, noise=(0.09, 0.045), longest=500, weights=_CAREFUL,
+        changes=3.0, noise=(0.09, 0.045), longest=500, weights=_CAREFUL,
     ),
     Stage(
         "keeping up", 4_000_000, (0.3, 2.2), turn=1.3, push=300.0, slope=0.05, stand=0.3, from_starts=0.3,
-        changes=True, waits=False, noise=(0.06, 0.045), longest=500, weights=_CAREFUL,
+        changes=3.0, waits=False, noise=(0.06, 0.045), longest=500, weights=_CAREFUL,
     ),
 )  # fmt: skip
 """Walking at 0 to 2.2 m/s: 0 is to step in place, and to turn on the spot."""
@@ -79,21 +83,26 @@ _FIRM = {"speed": 0.2, "nears": 0.2, "impact": -0.3}
 
 RUNNING = (
     Stage(
-        "first strides", 1_200_000, (0.8, 4.5), turn=0.4, runs=True, from_starts=0.3, waits=False,
+        "first strides", 1_200_000, (1.0, 4.5), turn=0.4, runs=True, from_starts=0.3, waits=False,
         noise=(0.2, 0.15), longest=300,
         weights={"speed": 0.125, "nears": 0.125, "impact": -0.1, "slip": -0.3},
     ),
     Stage(
-        "all paces", 3_000_000, (0.3, 5.0), turn=0.8, push=150.0, stand=0.1, runs=True, from_starts=0.4,
-        changes=True, waits=False, noise=(0.15, 0.1), weights=_FIRM,
+        "all paces", 3_000_000, (1.0, 5.0), turn=0.8, push=150.0, runs=True, from_starts=0.4, changes=3.0,
+        waits=False, noise=(0.15, 0.1), weights=_FIRM,
     ),
     Stage(
-        "sure", 6_500_000, (0.3, 5.0), turn=1.0, push=300.0, slope=0.04, stand=0.2, runs=True,
-        from_starts=0.4, changes=True, waits=False, noise=(0.1, 0.045), weights=_FIRM,
+        "sure", 6_500_000, (1.0, 5.0), turn=1.0, push=300.0, slope=0.04, runs=True, from_starts=0.4,
+        changes=3.0, waits=False, noise=(0.1, 0.07), weights=_FIRM,
+    ),
+    Stage(
+        "keeping up", 10_000_000, (1.0, 5.3), turn=1.0, push=300.0, slope=0.05, runs=True, from_starts=0.4,
+        changes=1.5, steadies=True, noise=(0.1, 0.075), fall=40.0, longest=600,
+        weights={"speed": 0.4, "nears": 0.3, "catches": 0.6, "impact": -0.4, "pace": -1.5, "slip": -1.0},
     ),
 )  # fmt: skip
-"""Running at up to 5 m/s, begun on the finished walk: setting off, slowing down, also out of a planned run,
-and coming to step in place."""
+"""Running at 1 to 5.3 m/s, begun on the finished walk: setting off, slowing down, also out of a planned run,
+and in the end keeping up with orders that change all the time."""
 
 STANDING = (
     Stage(

@@ -14,6 +14,7 @@ from locomotion.gaits.policy.layout import (
     ACTION,
     ACTIONS,
     ASKED_SPEED,
+    CHANGE,
     FAST,
     FELT_SIZE,
     FORCES,
@@ -43,7 +44,7 @@ THREADS = 2
 _STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
 _CONTROL = int(mujoco.mjtState.mjSTATE_CTRL) | int(mujoco.mjtState.mjSTATE_XFRC_APPLIED)
 _GRAVITY = 9.81
-_EVERY = 3.0  # [s] between pushes, and between orders, on average
+_EVERY = 3.0  # [s] between pushes, on average
 _PUSHED = 5  # decisions that a push lasts: 0.1 s
 _WEAKEST = 0.2  # of the greatest push
 _LOWEST, _LEAST_UP, _MOST_SWAY = 0.70, 0.75, 1.5  # beyond which a person counts as fallen
@@ -53,6 +54,7 @@ _SIDEWAYS = 1.2  # [m/s^2] in a bend at most: as much as people are asked for
 _TURNING, _BEGIN_TURNING = 0.6, 0.7  # shares of the orders that turn
 _CAUGHT, _CAUGHT_SPEEDS = 0.5, (0.25, 0.9)
 # share of those who begin in a stand, and stay, whom a push has thrown off it, and how fast they are [m/s]
+_LEANS = 0.5  # share of the angle that would balance a change of speed, by which a runner leans
 _SETS_OFF = 0.5  # share of those who begin in a stand and are to walk at once
 
 
@@ -94,7 +96,7 @@ class Environment:
       physics: (n, k) MuJoCo's states; sensed: (n, 22) sensors; age: (n,) decisions since they began.
       whole: on the figure of all 45 degrees of freedom.
 
-    ``starts``: states in which some begin, see `Stage.from_starts`. ``steadies``: as of `law.advance`.
+    ``starts``: states in which some begin, see `Stage.from_starts`.
     """
 
     inputs, actions, kept = INPUTS, ACTIONS, True
@@ -107,11 +109,9 @@ class Environment:
         seed: int,
         whole: bool = False,
         starts: Starts | None = None,
-        steadies: bool = False,
     ) -> None:
         self.reference, self.motion = reference, motion_of(reference)
         self.count, self.whole, self.stage, self._starts = count, whole, stage, starts
-        self.steadies = steadies
         self.rng = np.random.default_rng(seed)
         self._rollout = rollout.Rollout(nthread=THREADS)
         self._build(stage)
@@ -236,8 +236,9 @@ class Environment:
         self.sensed[i, SOLES], self.sensed[i, FORCES] = soles.ravel(), 0.0
 
     def _change_orders(self) -> None:
-        who = self.rng.random(self.count) < POLICY_DT / _EVERY
-        if self.stage.changes and who.any():
+        every = self.stage.changes or np.inf
+        who = self.rng.random(self.count) < POLICY_DT / every
+        if who.any():
             self.asked[who] = self._orders(int(who.sum()), self.stage.stand, _TURNING)
 
     def _push(self) -> None:
@@ -271,10 +272,10 @@ class Environment:
         self.memory[:, FAST] = self.stage.runs
         self._change_orders()
         self.age += 1
-        moment = self._moment(sensed[:, :, FORCES], soles, before)
+        moment = self.moment(sensed[:, :, FORCES], soles, before)
         terms = rewards(moment)
-        reward = np.where(broken, 0.0, total(terms, self.stage.weights))
         fell = broken | self._fallen(moment)
+        reward = np.where(broken, 0.0, total(terms, self.stage.weights)) - self.stage.fall * fell
         changes &= ~fell
         if self.stage.stands:
             fell |= changes
@@ -286,7 +287,7 @@ class Environment:
         """The memories go on; gives for whom the other network would take over, (n,), and with which
         memories. While it learns to walk, who could stand steps in place instead."""
         before = self.memory.copy()
-        how = {"steadies": self.steadies, "waits": self.stage.waits}
+        how = {"steadies": self.stage.steadies, "waits": self.stage.waits}
         law.advance(self.memory, self.motion, self.asked, self.seen(), **how)
         changes = self.memory[:, RUNNING] != before[:, RUNNING]
         switched = self.memory.copy()
@@ -312,23 +313,26 @@ class Environment:
         self.pushed[on] -= 1
         return control
 
-    def _moment(
+    def moment(
         self,
         forces: NDArray[np.float64],
         soles: NDArray[np.float64],
         decided_before: NDArray[np.float64],
     ) -> Moment:
+        """How they are after a decision: ``forces``, ``soles`` and ``decided_before`` as of `Moment`."""
         memory, reference, seen = self.memory, self.reference, self.seen()
         speed = law.shown_speed(memory)
         place = self.motion.at(memory[:, PHASE], speed, memory[:, RUNNING])
         root = place.read(reference.root)
         roll, pitch, facing = root[:, 2], root[:, 3], root[:, 4]
+        pitch = pitch + _LEANS * np.arctan2(memory[:, CHANGE], _GRAVITY) * memory[:, FAST]
         up, yaw = law.up_and_yaw(self.qpos)
         wanted = np.stack([-np.sin(pitch), np.sin(roll) * np.cos(pitch)], axis=1)
         feet = law.along(memory[:, HEADING], seen.soles - self.qpos[:, None, :3])
         turned = law.turned_feet(memory, memory[:, PHASE], law.own_period(memory, self.motion))
         feet -= _turn(place.read(reference.soles), turned)
-        velocity = law.along(memory[:, HEADING], self.qvel[:, :3])
+        velocity = law.along(memory[:, HEADING], self.qvel[:, :3]) - root[:, 5:8]
+        velocity[:, 0] += speed - np.where(memory[:, FAST] > 0.0, memory[:, SPEED], speed)
         joints = place.read(reference.joints)
         joints[:, HIP_ROTATIONS] += law.turned_in(turned)
         return Moment(
@@ -339,7 +343,7 @@ class Environment:
             yaw=law.wrap(yaw - memory[:, HEADING] - facing),
             spin=self.qvel[:, 3:6] - place.read(reference.spin),
             height=self.qpos[:, 2] - root[:, 1],
-            velocity=velocity - root[:, 5:8],
+            velocity=velocity,
             forces=forces,
             soles=seen.soles,
             soles_before=soles,
@@ -351,8 +355,9 @@ class Environment:
     def _fallen(self, moment: Moment) -> NDArray[np.bool_]:
         up, _ = law.up_and_yaw(self.qpos)
         low = (self.qpos[:, 2] < _LOWEST) | (up[:, 2] < _LEAST_UP)
-        swayed = (sway_off(moment.angles) > _MOST_SWAY) & (self.age > _SETTLED)
-        return low | swayed
+        if self.stage.runs:  # whose reference may change faster than a body can
+            return low
+        return low | (sway_off(moment.angles) > _MOST_SWAY) & (self.age > _SETTLED)
 
     # ---- saved and restored
 

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.training.policies.agent import DISCOUNT, Agent, Batch, advantages
+from locomotion.training.policies.agent import Agent, Batch, advantages
 from locomotion.training.policies.environment import Outcome
 from locomotion.training.progress import Progress
 from locomotion.training.search.checkpoint import anew, read_checkpoint
@@ -122,7 +122,9 @@ class Learning:
     Attributes:
       people: makes those who try it, in the first stage and from a seed. stages: what is learned, in turn.
       checkpoint: file of intermediate results; None: they are not kept. on_progress: called after each
-        improvement of the policy. kept_every: improvements after which they are kept.
+        improvement of the policy. kept_every: improvements after which they are kept. judges: improvements
+        at the beginning in which only the critic learns, for a policy that can do something already.
+        discount: what a reward is worth a decision later.
       agent, environment: policy and critic, and the people. stage, iteration: how far it is.
     """
 
@@ -132,6 +134,8 @@ class Learning:
     checkpoint: Path | None = None
     on_progress: Callable[[PolicyProgress], None] = show_policy
     kept_every: int = 40
+    judges: int = 0
+    discount: float = 0.975
     agent: Agent = field(init=False)
     environment: People = field(init=False)
 
@@ -173,9 +177,9 @@ class Learning:
         if not self.environment.kept and self.iteration % self.kept_every == 0:
             self.environment.begin(stage)
         first, last = stage.noise
-        self.agent.limit_noise(first * (last / first) ** min(share / 0.8, 1.0))
+        self.agent.limit_noise(last, first * (last / first) ** min(share / 0.8, 1.0))
         batch, observed, report = self._try()
-        change = self.agent.learn(batch)
+        change = self.agent.learn(batch, self.stage > 0 or self.iteration >= self.judges)
         self.agent.count_in(observed)
         elapsed = time.monotonic() - self._begun
         self._done += 1
@@ -207,13 +211,13 @@ class Learning:
             outcome = environment.step(decided[t])
             reward[t] = outcome.reward
             if outcome.over.any():  # their time is over, not their walk
-                reward[t] += outcome.over * DISCOUNT * agent.expect(agent.scaled(environment.observe()))
+                reward[t] += outcome.over * self.discount * agent.expect(agent.scaled(environment.observe()))
             done[t] = outcome.fell | outcome.over
             falls += int(outcome.fell.sum())
             terms.append(outcome.terms)
             environment.reset(done[t])
         value[LENGTH] = agent.expect(agent.scaled(environment.observe()))
-        gained = advantages(reward, value, done)
+        gained = advantages(reward, value, done, self.discount)
         returns = (gained + value[:-1]).ravel().astype(np.float32)
         gained = (gained - gained.mean()) / (gained.std() + 1e-6)
         seen, meant, chosen = (each.reshape(-1, each.shape[-1]) for each in (inputs, means, decided))

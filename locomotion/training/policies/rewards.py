@@ -26,6 +26,7 @@ WEIGHTS: dict[str, float] = {
     "root": 0.2,
     "speed": 0.25,
     "nears": 0.0,
+    "catches": 0.0,
     "load": 0.25,
     "rise": 0.2,
     "change": -0.08,
@@ -36,12 +37,12 @@ WEIGHTS: dict[str, float] = {
 }
 TERMS = tuple(WEIGHTS)
 """Names of the terms. Up to 1 for being like the reference: ``pose`` (joint angles), ``rates``, ``feet``
-(heels and tips from the root), ``root`` (attitude, height, spin), ``speed``, ``nears`` (the same, but also
-felt far off), ``load`` (what each foot bears), ``rise`` (speed up and down). At a cost: ``change`` and
-``effort`` of decisions, ``pace`` other than the usual, ``impact`` above 1.5 body weights, ``slip``: speed
-of the lowest point of a foot, toes included, that touches the ground [m/s]."""
+(heels and tips from the root), ``root`` (attitude, height, spin), ``speed``, ``nears`` and ``catches`` (the
+same, but also felt far off, and from anywhere), ``load`` (what each foot bears), ``rise`` (speed up and
+down). At a cost: ``change`` and ``effort`` of decisions, ``pace`` other than the usual, ``impact`` above 1.5
+body weights, ``slip``: speed of the lowest point of a foot, toes included, that touches the ground [m/s]."""
 _FIRM, _FIRM_RUN = 1.5, 2.8  # [body weights]
-_FAR_OFF = 0.15  # share of the error of the speed that counts
+_FAR_OFF, _FARTHEST = 0.15, 0.1  # shares of the error of the speed that count
 _TOUCHES = 12.0  # per body weight: a tenth of it counts nearly as the whole
 _WEIGHTED = {
     "knee_flexion": 2.0,
@@ -119,6 +120,7 @@ def rewards(m: Moment) -> dict[str, NDArray[np.float64]]:
         "root": np.exp(-root),
         "speed": np.exp(-off),
         "nears": np.exp(-_FAR_OFF * off),
+        "catches": 1.0 / (1.0 + _FARTHEST * off),
         "load": np.exp(-2.0 * ((bears - m.loads) ** 2).sum(1)),
         "rise": np.exp(-10.0 * m.velocity[:, 2] ** 2),
         "change": ((action - m.decided_before) ** 2).mean(1),

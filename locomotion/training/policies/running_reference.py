@@ -33,11 +33,12 @@ from locomotion.training.policies.reference import (
 
 __all__ = ["SPEEDS", "contact_time", "run_cadence", "with_run"]
 
-SPEEDS = (2.6, 3.2, 3.8, 4.4, 5.0)
+SPEEDS = (2.6, 3.2, 3.8, 4.4, 5.0, 5.6)
 _GRAVITY = 9.81
 _LEAN = math.radians(6.0)
 _HALF_WIDTH, _TOE_OUT = 0.035, math.radians(5.0)
 _CLEARANCE = 0.04
+_MOST_ANKLE = 28.0  # [deg] upwards: the joint ends at 30
 _KNOTS = {
     "hip_flexion": ((0, 36), (0.25, 32), (0.5, 20), (0.75, 5), (1, -8), (1.1, -10), (1.3, 10), (1.5, 36),
                     (1.7, 49), (1.85, 45)),
@@ -157,6 +158,8 @@ class _Run(Gait):
             low = soles[:, :, 2].min(axis=1)
             knee = np.degrees(self.joints[:, JOINTS.index("right_knee_flexion")])
             terms += [swing * np.minimum(low - _CLEARANCE, 0.0) / 0.006, np.minimum(low, 0.0) / 0.003]
+            ankle = np.degrees(self.joints[:, JOINTS.index("right_ankle_flexion")])
+            terms += [2.0 * np.maximum(ankle - _MOST_ANKLE, 0.0)]
             terms += [np.minimum(knee - 5.0, 0.0), 0.5 * (degrees / [4.0, 5.0, 2.0, 10.0]).ravel()]
             rest = x[4 * COEFFICIENTS :]
             terms += [0.3 * rest[:1], 8.0 * rest[1:], np.diff(degrees, 2, axis=0).ravel() / 4.0]

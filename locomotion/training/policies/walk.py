@@ -26,6 +26,7 @@ _TESTED = (0.8, 1.25, 1.8, 3.5)
 """Speeds [m/s] that a policy must walk at to be of use."""
 _STANDS, _WALKS = 6.0, 12.0  # [s]
 _PEOPLE = 256  # who learn at once
+_JUDGES, _FAR_SIGHTED = 40, 0.985  # of the run: `Learning.judges`, and its discount
 _TAKEOVERS, _OUT_OF_RUNS = 6000, 3000  # states of planned walks, and runs, from which some begin
 
 
@@ -50,14 +51,15 @@ def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POL
         people = partial(Environment, reference, stages[0], _PEOPLE, starts=starts)
         learning = Learning(people, stages, seed, checkpoint, tells(training.on_progress))
         if first is not None:
+            learning.judges, learning.discount = _JUDGES, _FAR_SIGHTED
             learning.agent.begin_as(first.network)
         return learning.run()
 
     seed = training.seed
     walker = learn("walk", walking, 2 * seed, takeovers(_TAKEOVERS, seed))
     runner = learn("run", running, seed, out_of_runs(_OUT_OF_RUNS, seed), walker)
-    stops = replace(walking[-1], stand=0.8, push=100.0)
-    environment = Environment(reference, stops, _PEOPLE, training.seed, steadies=True)
+    stops = replace(walking[-1], stand=0.8, push=100.0, steadies=True)
+    environment = Environment(reference, stops, _PEOPLE, training.seed)
     ends = where_it_ended(environment, lambda seen: walker.decide(walker.scaled(seen)))
     stander = learn("stand", standing, 2 * training.seed + 1, ends)
     motion, meta = motion_of(reference), training.made_by("walk-policy")

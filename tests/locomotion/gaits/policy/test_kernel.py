@@ -96,7 +96,7 @@ def test_it_decides_as_the_plain_form_from_any_state(skill):
         memory[[at.TOLD, at.SPEED]] = rng.choice([0.0, 0.02, 0.3, 1.2]) + rng.choice([0.0, 0.05])
         memory[at.TURN_RATE], memory[at.TRIM] = rng.choice([0.0, 0.03, -0.7]), rng.uniform(-0.3, 0.3)
         memory[[at.LAG_AHEAD, at.LAG_LEFT]] = rng.choice([0.02, 0.5]) * rng.normal(size=2)
-        memory[at.ACTION] = rng.normal(size=at.ACTIONS)
+        memory[at.ACTION], memory[at.CHANGE] = rng.normal(size=at.ACTIONS), rng.normal()
         memory[at.FAST] = memory[at.RUNNING] * rng.integers(2)
         if memory[at.FAST]:
             memory[[at.TOLD, at.SPEED]] *= rng.choice([1.0, 2.6])
@@ -141,9 +141,62 @@ def test_a_run_begins_when_it_is_asked_for_and_ends_when_the_body_is_slow(skill)
     assert memory[0, at.TOLD] == pytest.approx(told + 0.5 * law.RUN_ACCELERATION, abs=0.05)
     go(1.0, 4.0, speed=2.6)
     assert memory[0, at.FAST] == 1.0, "the body is too fast yet"
+    assert law.shown_speed(memory)[0] == pytest.approx(2.6 - law.SHOWN_WITHIN, abs=0.02)
     go(1.0, 4.0)
     assert memory[0, at.FAST] == 0.0
     assert memory[0, at.TOLD] == pytest.approx(1.0)
+
+
+def running(told, **kept):
+    """The memory (1, STATE_SIZE) of a person who runs as ``told`` [m/s]."""
+    memory = new_memory(0.0)[None]
+    memory[:, [at.RUNNING, at.FAST]], memory[:, [at.TOLD, at.SPEED]] = 1.0, told
+    for name, value in kept.items():
+        memory[:, getattr(at, name)] = value
+    return memory
+
+
+@pytest.mark.parametrize(("lag", "share"), [(-0.2, 1.0), (0.0, 1.0), (0.5, 0.5), (1.0, 0.0), (1.4, 0.0)])
+def test_who_brakes_is_told_to_brake_less_the_more_the_body_is_too_fast(skill, lag, share):
+    memory = running(4.0, LAG_AHEAD=lag * law.MOST_AHEAD)
+    law.advance(memory, skill.motion, np.zeros((1, 2)), standing(skill, memory, speed=4.0))
+    assert 4.0 - memory[0, at.TOLD] == pytest.approx(share * law.RUN_BRAKING[0] * at.POLICY_DT)
+
+
+def test_who_stops_out_of_a_run_runs_slowly_until_the_walk_takes_over(skill):
+    memory = running(3.0)
+    for _ in range(200):
+        pace = max(memory[0, at.TOLD], 1.9)
+        law.advance(memory, skill.motion, np.zeros((1, 2)), standing(skill, memory, speed=pace))
+    assert memory[0, at.FAST] == 1.0 and memory[0, at.TOLD] == pytest.approx(law.SLOWEST_RUN)
+    for _ in range(200):
+        law.advance(memory, skill.motion, np.zeros((1, 2)), standing(skill, memory, speed=memory[0, at.TOLD]))
+    assert memory[0, at.FAST] == 0.0 and memory[0, at.TOLD] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("asked", "speed", "most"),
+    [(4.0, 4.0, law.RUN_SIDEWAYS / 4.0), (1.5, 2.0, law.RUN_SIDEWAYS / 2.0), (0.0, 1.3, law.ENDS_TURNING)],
+)
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_run_turns_no_tighter_than_its_speed_allows(skill, asked, speed, most, side):
+    memory = running(speed, TURN_RATE=0.0)
+    for _ in range(30):
+        memory[:, [at.TOLD, at.SPEED, at.LAG_AHEAD, at.TRIM]] = speed, speed, 0.0, 0.0
+        memory[:, at.FAST] = 1.0
+        law.advance(
+            memory, skill.motion, np.array([[asked, 1.2 * side]]), standing(skill, memory, speed=speed)
+        )
+    assert memory[0, at.TURN_RATE] == pytest.approx(side * most, abs=0.03)
+
+
+def test_it_remembers_how_fast_the_speed_told_changes(skill):
+    memory = running(2.5)
+    for _ in range(40):
+        pace = memory[0, at.TOLD]
+        law.advance(memory, skill.motion, np.array([[5.0, 0.0]]), standing(skill, memory, speed=pace))
+    assert memory[0, at.CHANGE] == pytest.approx(law.RUN_ACCELERATION, rel=0.01)
+    assert law.observe(memory, standing(skill, memory))[0, at.CHANGE_SEEN] == memory[0, at.CHANGE]
 
 
 def test_the_mirror_image_of_a_person_decides_the_mirror_image(skill):

@@ -1,6 +1,7 @@
 """Policy gradient: its slopes, its advantages, and that it improves a policy."""
 
 import numpy as np
+import pytest
 
 from locomotion.training.policies import agent as a
 from locomotion.training.policies.agent import Agent, Batch, advantages
@@ -10,10 +11,10 @@ from locomotion.training.policies.network import forward
 def test_advantages_by_hand():
     reward, value = np.array([[1.0], [2.0], [3.0]]), np.array([[0.5], [0.25], [1.0], [4.0]], np.float32)
     done = np.array([[False], [True], [False]])
-    found = advantages(reward, value, done)
-    last = 3.0 + a.DISCOUNT * 4.0 - 1.0
+    found = advantages(reward, value, done, discount=0.9)
+    last = 3.0 + 0.9 * 4.0 - 1.0
     middle = 2.0 - 0.25
-    first = 1.0 + a.DISCOUNT * 0.25 - 0.5 + a.DISCOUNT * a.TRACE * middle
+    first = 1.0 + 0.9 * 0.25 - 0.5 + 0.9 * a.TRACE * middle
     np.testing.assert_allclose(found[:, 0], [first, middle, last])
 
 
@@ -64,6 +65,7 @@ def test_it_learns_what_pays():
     """Decisions that pay best are twice the first input."""
     rng = np.random.default_rng(1)
     agent = Agent(4, 1, rng, 0.3)
+    agent.limit_noise(0.05, 0.3)
 
     def gain(inputs, decided):
         pays = -((decided[:, 0] - 2.0 * inputs[:, 0]) ** 2)
@@ -77,6 +79,33 @@ def test_it_learns_what_pays():
     for _ in range(60):
         agent.learn(batch_of(agent, rng, 2048, gain))
     assert off() < 0.3 * before
+
+
+def test_a_policy_that_is_judged_only_stays_as_it_is_while_its_critic_learns():
+    rng = np.random.default_rng(4)
+    agent = Agent(4, 3, rng, 0.3)
+    actor, critic, rate = [each.copy() for each in agent.actor], agent.critic[0].copy(), agent.rate
+    batch = batch_of(agent, rng, 2048, lambda x, d: rng.normal(size=len(x)))
+    assert agent.learn(batch, decides=False) == 0.0
+    assert all((one == other).all() for one, other in zip(agent.actor, actor, strict=True))
+    assert (agent.critic[0] != critic).any() and agent.rate == rate
+    agent.learn(batch)
+    assert (agent.actor[0] != actor[0]).any()
+
+
+def test_noise_keeps_within_its_limits():
+    rng = np.random.default_rng(5)
+    agent = Agent(4, 1, rng, 0.3)
+    agent.limit_noise(0.15, 0.2)
+    assert np.exp(agent.spread) == pytest.approx(0.2)
+
+    def gain(inputs, decided):  # doing nothing pays best
+        pays = -np.abs(decided[:, 0])
+        return (pays - pays.mean()) / pays.std()
+
+    for _ in range(60):
+        agent.learn(batch_of(agent, rng, 2048, gain))
+    assert np.exp(agent.spread) == pytest.approx(0.15)
 
 
 def test_statistics_of_inputs_are_those_of_all_seen():

@@ -6,8 +6,9 @@ from functools import partial
 import numpy as np
 
 from locomotion.gaits.policy.law import LIFT_OFF
-from locomotion.gaits.policy.layout import ACTIONS, JOINTS, PHASE, RESTED, RUNNING
-from locomotion.training.policies.curriculum import STANDING, WALKING
+from locomotion.gaits.policy.layout import ACTIONS, CHANGE, JOINTS, LAG_AHEAD, PHASE, RESTED
+from locomotion.gaits.policy.layout import RUNNING as GOES_ON
+from locomotion.training.policies.curriculum import RUNNING, STANDING, WALKING
 from locomotion.training.policies.environment import Environment, where_it_ended
 from locomotion.training.policies.learning import LENGTH, Learning
 
@@ -65,6 +66,45 @@ def test_pushes_push_and_orders_change(reference):
     assert environment.seen().angles.shape == (64, len(JOINTS))
 
 
+def test_orders_that_do_not_change_stay(reference):
+    environment = Environment(reference, replace(WALKING[2], changes=0.0), 8, seed=0)
+    begun = environment.asked.copy()
+    for _ in range(30):
+        environment.step(np.zeros((8, ACTIONS)))
+    assert (environment.asked == begun).all()
+
+
+def test_a_fall_costs_what_the_stage_says(both):
+    stage = replace(RUNNING[0], speeds=(3.0, 3.0), from_starts=0.0)
+    free, dear = (Environment(both, replace(stage, fall=fall), 32, seed=0) for fall in (0.0, 40.0))
+    fell = 0
+    for _ in range(40):
+        one, other = (each.step(np.zeros((32, ACTIONS))) for each in (free, dear))
+        assert (one.fell == other.fell).all()
+        np.testing.assert_allclose(one.reward - other.reward, 40.0 * one.fell)
+        fell += one.fell.sum()
+        free.reset(one.fell)
+        dear.reset(other.fell)
+    assert fell
+
+
+def test_a_runner_is_shown_a_pose_that_leans_as_its_speed_changes(both):
+    environment = Environment(both, replace(RUNNING[0], speeds=(3.0, 3.0), from_starts=0.0), 4, seed=0)
+    nothing = np.zeros((4, 4)), environment.soles, np.zeros((4, ACTIONS))
+    upright = environment.moment(*nothing).up[:, 0]
+    environment.memory[:, CHANGE] = 2.0
+    leans = environment.moment(*nothing).up[:, 0] - upright
+    np.testing.assert_allclose(leans, 0.5 * np.arctan2(2.0, 9.81), rtol=0.05)
+
+
+def test_a_runners_speed_is_off_that_told_whatever_pose_is_shown(both):
+    environment = Environment(both, replace(RUNNING[0], speeds=(3.0, 3.0), from_starts=0.0), 4, seed=0)
+    nothing = np.zeros((4, 4)), environment.soles, np.zeros((4, ACTIONS))
+    as_told = environment.moment(*nothing).velocity[:, 0]
+    environment.memory[:, LAG_AHEAD] = -1.0
+    np.testing.assert_allclose(environment.moment(*nothing).velocity[:, 0], as_told, atol=0.3)
+
+
 def decides_nothing(seen):
     return np.zeros((len(seen), ACTIONS))
 
@@ -75,8 +115,8 @@ def test_who_could_stand_steps_on_while_the_walk_is_learned(reference):
     environment.memory[:, RESTED] = 1.0
     found = where_it_ended(environment, decides_nothing, most=14)
     assert found is not None
-    assert (found.memory[:, RUNNING] == 0.0).all()
-    assert (environment.memory[:, RUNNING] == 1.0).all()
+    assert (found.memory[:, GOES_ON] == 0.0).all()
+    assert (environment.memory[:, GOES_ON] == 1.0).all()
     standing = Environment(reference, STANDING[0], 40, seed=0, starts=found)
     taken = (standing.physics[:, None] == found.physics[None]).all(axis=2).any(axis=1)
     assert 0.3 < taken.mean() < 1.0

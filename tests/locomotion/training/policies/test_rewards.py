@@ -59,6 +59,7 @@ def test_a_lag_of_the_speed_and_a_height(same):
     terms = rewards(replace(same, memory=memory))
     assert terms["speed"][0] == pytest.approx(np.exp(-0.25))
     assert terms["nears"][0] == pytest.approx(np.exp(-0.0375))
+    assert terms["catches"][0] == pytest.approx(1.0 / 1.025)
     assert rewards(replace(same, height=np.array([0.05])))["root"][0] == pytest.approx(np.exp(-0.3))
 
 

@@ -221,7 +221,7 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
     if memory[at.RESTED] < 0.0:
         wanted = 0.0
     lag, steady = memory[at.LAG_AHEAD] + memory[at.TRIM], abs(wanted) < STEADY
-    off = min(MOST_BEHIND + LATER * memory[at.TOLD], MOST_LATE) if fast else MOST_BEHIND
+    off = min(MOST_BEHIND + LATER * told, MOST_LATE) if fast else MOST_BEHIND
     if lag < -off:
         wanted = min(wanted, 0.0)
     slower, faster = BRAKING, ACCELERATION

@@ -98,8 +98,6 @@ while it slows down for that, and [m/s^2] in any bend."""
 SHOWN_WITHIN = 0.4
 """[m/s] that the reference motion of a run is faster or slower than the body at most: nobody who still runs
 is shown how to walk."""
-CHANGE_SHARE = 0.15
-"""The same share as `LAG_SHARE`, of how fast the speed told changes."""
 MOST_LATE, LATER, RUN_TRIM, UNWINDS = 0.8, 0.25, 0.12, 0.03
 """While a person runs, the speed told waits for a body that is slower by more than `MOST_BEHIND` and the
 share `LATER` of the speed, but at most `MOST_LATE` [m/s]. What is added to the speed told is at most the
@@ -155,6 +153,8 @@ SHIFTING = 0.14
 """Share of the cycle before that at which it goes on: first the weight goes over to the other foot."""
 LAG_SHARE = 0.08
 """Share of the error of the speed that its low-passed value takes up with each decision."""
+CHANGE_SHARE = 0.15
+"""The same share for how fast the speed told changes."""
 
 
 @dataclass(frozen=True)
@@ -360,13 +360,13 @@ def advance(
     heading, yaw = memory[:, HEADING] + POLICY_DT * memory[:, TURN_RATE], up_and_yaw(seen.qpos)[1]
     memory[:, HEADING] = wrap(yaw - np.clip(wrap(yaw - heading), -MOST_TWIST, MOST_TWIST))
     v = along(memory[:, HEADING], seen.qvel[:, :3])
-    fast, told = memory[:, FAST] > 0.0, memory[:, TOLD].copy()
+    fast, told = memory[:, FAST] > 0.0, memory[:, TOLD]
     ends = fast & (asked[:, ASKED_SPEED] < SLOWEST_RUN)
     wanted = np.where(ends, SLOWEST_RUN, asked[:, ASKED_SPEED]) - told
     wanted = np.where(memory[:, RESTED] < 0.0, 0.0, wanted)
     lag = memory[:, LAG_AHEAD] + memory[:, TRIM] * steadies
     steady = np.abs(wanted) < STEADY
-    off = np.where(fast, np.minimum(MOST_BEHIND + LATER * memory[:, TOLD], MOST_LATE), MOST_BEHIND)
+    off = np.where(fast, np.minimum(MOST_BEHIND + LATER * told, MOST_LATE), MOST_BEHIND)
     behind = waits & (lag < -off)
     wanted = np.where(behind, np.minimum(wanted, 0.0), wanted)
     most, less, full = RUN_BRAKING

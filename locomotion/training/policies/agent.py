@@ -117,8 +117,8 @@ class Agent:
         return means + np.exp(self.spread) * e, -0.5 * (e * e).sum(axis=1) - self.spread.sum()
 
     def limit_noise(self, least: float, most: float) -> None:
-        """Try decisions so far from the means, on average, as learning finds best between these limits. Below
-        0.07 hardly any of them leads to a fall, so that learning forgets how not to fall."""
+        """Keep the noise of what is tried between these limits. Below 0.07 it makes hardly anybody fall, and
+        the policy forgets how not to."""
         self._limits = np.log(np.float32(least)), np.log(np.float32(most))
         np.clip(self.spread, *self._limits, out=self.spread)
 

@@ -332,7 +332,7 @@ class Environment:
         turned = law.turned_feet(memory, memory[:, PHASE], law.own_period(memory, self.motion))
         feet -= _turn(place.read(reference.soles), turned)
         velocity = law.along(memory[:, HEADING], self.qvel[:, :3]) - root[:, 5:8]
-        velocity[:, 0] += speed - np.where(memory[:, FAST] > 0.0, memory[:, SPEED], speed)
+        velocity[:, 0] += (speed - memory[:, SPEED]) * memory[:, FAST]  # a run is to come to the speed told
         joints = place.read(reference.joints)
         joints[:, HIP_ROTATIONS] += law.turned_in(turned)
         return Moment(

@@ -147,18 +147,17 @@ def test_a_run_begins_when_it_is_asked_for_and_ends_when_the_body_is_slow(skill)
     assert memory[0, at.TOLD] == pytest.approx(1.0)
 
 
-def running(told, **kept):
-    """The memory (1, STATE_SIZE) of a person who runs as ``told`` [m/s]."""
+def running(told, lag=0.0):
+    """What a running person remembers, (1, STATE_SIZE): its speed [m/s], and how much faster its body is."""
     memory = new_memory(0.0)[None]
     memory[:, [at.RUNNING, at.FAST]], memory[:, [at.TOLD, at.SPEED]] = 1.0, told
-    for name, value in kept.items():
-        memory[:, getattr(at, name)] = value
+    memory[:, at.LAG_AHEAD] = lag
     return memory
 
 
 @pytest.mark.parametrize(("lag", "share"), [(-0.2, 1.0), (0.0, 1.0), (0.5, 0.5), (1.0, 0.0), (1.4, 0.0)])
 def test_who_brakes_is_told_to_brake_less_the_more_the_body_is_too_fast(skill, lag, share):
-    memory = running(4.0, LAG_AHEAD=lag * law.MOST_AHEAD)
+    memory = running(4.0, lag * law.MOST_AHEAD)
     law.advance(memory, skill.motion, np.zeros((1, 2)), standing(skill, memory, speed=4.0))
     assert 4.0 - memory[0, at.TOLD] == pytest.approx(share * law.RUN_BRAKING[0] * at.POLICY_DT)
 
@@ -180,7 +179,7 @@ def test_who_stops_out_of_a_run_runs_slowly_until_the_walk_takes_over(skill):
 )
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_a_run_turns_no_tighter_than_its_speed_allows(skill, asked, speed, most, side):
-    memory = running(speed, TURN_RATE=0.0)
+    memory = running(speed)
     for _ in range(30):
         memory[:, [at.TOLD, at.SPEED, at.LAG_AHEAD, at.TRIM]] = speed, speed, 0.0, 0.0
         memory[:, at.FAST] = 1.0

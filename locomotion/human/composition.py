@@ -23,7 +23,7 @@ from locomotion.preconditions.features import FEATURES, before_run_up, describe,
 from locomotion.preconditions.moments import planned
 from locomotion.preconditions.precondition import SLOW_DOWN, Precondition, load_preconditions
 from locomotion.rehearsal.trials import BALKINGS, RUN_UPS
-from locomotion.skills.interface import distance_to
+from locomotion.skills.interface import ClearingSkill, distance_to
 from locomotion.skills.library import comes_with_package
 from locomotion.skills.run_up_layout import FARTHER, FASTER
 from surefoot.numeric import is_finite
@@ -62,14 +62,10 @@ class Composition:
         return 0.0 if self.bravery is None else 1.0 - self.bravery
 
     # --- asking
-    def precondition(self, obstacle: ObstacleAhead) -> Precondition | None:
-        """What is known of the skill with which it clears ``obstacle``; None if nothing is, as of skills of
-        one's own."""
-        known = self._known.get(obstacle.affordance)
-        if known is None or self.preconditions is not None:
-            return known
-        skill = self._person.run_up.skill_for(obstacle)
-        return known if comes_with_package(skill) else None
+    def precondition(self, skill: ClearingSkill) -> Precondition | None:
+        """What is known of one of its skills; None if nothing is, as of one's own."""
+        known = self._known.get(skill.affordance)
+        return known if self.preconditions is not None or comes_with_package(skill) else None
 
     @property
     def _known(self) -> Mapping[str, Precondition]:
@@ -78,7 +74,7 @@ class Composition:
     def odds(self, obstacle: ObstacleAhead, room: float) -> float | None:
         """Chance, 0 to 1, that it clears ``obstacle`` from where it is; None if nothing is known. ``room``:
         [m] of way before the obstacle."""
-        known = self.precondition(obstacle)
+        known = self.precondition(self._person.run_up.skill_for(obstacle))
         if known is None:
             return None
         if self._in_run_up and obstacle is self._person.run_up.ahead:
@@ -128,7 +124,7 @@ class Composition:
         person, obstacle = self._person, self._person.run_up.ahead
         if self.bravery is None or obstacle is None or not self._in_run_up:
             return
-        known = self.precondition(obstacle)
+        known = self.precondition(person.run_up.skill_for(obstacle))
         if known is None or person.control[controller.STEP_TIME] > 0.0:
             return
         present = person.run_up.plan[[FARTHER, FASTER]]

@@ -187,6 +187,11 @@ class Human(Person):
     def bravery(self, bravery: float | None) -> None:
         self.composition.bravery = checked_bravery(bravery)
 
+    @property
+    def by_odds(self) -> bool:
+        """Whether it decides by the odds of its skills: it has a `bravery`, and does not rehearse."""
+        return self.bravery is not None and self._lookahead is None
+
     def wear(self, traits: NDArray[np.float64]) -> None:
         """Differ from others on the next ways that it goes as learned from end to end: ``traits`` (7,) are a
         row of `locomotion.body.traits`; size and phase do not show."""

@@ -7,7 +7,7 @@ run-up, goes back and finds no better one. Here such a route is moved to links i
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from itertools import pairwise
 
 import numpy as np
@@ -28,16 +28,16 @@ _SPREAD = 6.0  # [m] from the route's link to alternatives
 
 
 def lined_up(
-    route: Route, skills: Mapping[str, tuple[float, float]], closed_links: Sequence[int] | NDArray = ()
+    route: Route, skills: Mapping[str, tuple[float, float]], link_costs: NDArray[np.float64] | None = None
 ) -> Route:
-    """``route``, found with ``skills`` and ``closed_links``, moved to links of the same obstacles that are as
+    """``route``, found with ``skills`` and ``link_costs``, moved to links of the same obstacles that are as
     nearly in line as possible; unchanged if they already are."""
     if not route.links:
         return route
     begins = _from_start(route.graph, route.waypoints[0], route.links[0].link) > _SIDEWAYS * _ASIDE
     if not begins and not any(_needs_it(route, a, b) for a, b in pairwise(route.links)):
         return route
-    choices = [_beside(route, use, skills, closed_links) for use in route.links]
+    choices = [_beside(route, use, skills, link_costs) for use in route.links]
     links = _straightest(route.graph, route.waypoints[0], route.waypoints[-1], choices)
     if links == [use.link for use in route.links]:
         return route
@@ -61,7 +61,10 @@ def _offset(graph: NodeGraph, one: int, other: int) -> tuple[float, float]:
 
 
 def _beside(
-    route: Route, use: LinkUse, skills: Mapping[str, tuple[float, float]], closed: Sequence[int] | NDArray
+    route: Route,
+    use: LinkUse,
+    skills: Mapping[str, tuple[float, float]],
+    link_costs: NDArray[np.float64] | None,
 ) -> list[int]:
     """Links over the obstacle of ``use`` that the body can take, near that one."""
     links = route.graph.links
@@ -69,7 +72,8 @@ def _beside(
     fits = (links.obstacle == use.obstacle) & (links.radius >= route.radius)
     fits &= (links.height >= low) & (links.height <= high)
     fits &= np.linalg.norm(links.edge - links.edge[use.link], axis=1) <= _SPREAD
-    fits[np.asarray(closed, dtype=np.int64)] = False
+    if link_costs is not None:
+        fits &= np.isfinite(link_costs)
     fits[use.link] = True
     return np.flatnonzero(fits).tolist()
 

@@ -218,8 +218,10 @@ def are_plain(factor: np.ndarray, doors: Any) -> bool:
     )
 
 
-def priced_route(graph: "NodeGraph", route: Route, priced: Priced) -> Route:
-    """``route``, found without costs, with what it costs."""
+def priced_route(
+    graph: "NodeGraph", route: Route, priced: Priced, link_costs: np.ndarray | None = None
+) -> Route:
+    """``route``, found without costs, with what it costs; ``link_costs`` as of `NodeGraph.find_path`."""
     origin, cost, first = graph.surface.origin, 0.0, 0
     for use in [*route.links, None]:
         last = len(route.waypoints) - 1 if use is None else use.first
@@ -229,6 +231,7 @@ def priced_route(graph: "NodeGraph", route: Route, priced: Priced) -> Route:
             cost += _line_price(net_of(graph), priced.road, int(cell), points)
         if use is not None:
             cost += float(graph.links.cost[use.link])
+            cost += 0.0 if link_costs is None else float(link_costs[use.link])
             first = use.last
     return replace(route, _cost=cost)
 

@@ -38,7 +38,7 @@ class Priced(NamedTuple):
 
 def priced_of(graph: "NodeGraph", doors: Any, factor: np.ndarray) -> Priced:
     """The roadmap for a body and the leaps that ``doors`` offer it, priced; made once."""
-    key = doors.radius, doors.leap_id.tobytes(), factor.tobytes()
+    key = doors.radius, doors.leap_id.tobytes(), doors.leap_cost.tobytes(), factor.tobytes()
 
     def roadmap() -> Roadmap:
         return make_roadmap(graph, doors, make_scratch(graph))

@@ -315,7 +315,7 @@ class NodeGraph:
         radius: float = 0.3,
         skills: Mapping[str, tuple[float, float]] | None = None,
         node_costs: np.ndarray | None = None,
-        closed_links: Any = (),
+        link_costs: np.ndarray | None = None,
         extent: tuple[float, float] | None = None,
         costs: Mapping[str, float] | None = None,
     ) -> Route:
@@ -328,16 +328,15 @@ class NodeGraph:
         that cannot be reached is replaced by the place that can be and is nearest to it in a straight line:
         the status is "partial". ``skills`` offers typed links: for each affordance
         the least and greatest height [m] that the body can clear, as in {"jump": (0.3, 0.5)}. ``node_costs``
-        (m,), at least 1, multiply the length walked in each node. ``closed_links`` (k,) int are indices of
-        `links` that are not offered. ``costs`` say what a metre costs in each of the `areas`, as in {"mud":
+        (m,), at least 1, multiply the length walked in each node. ``link_costs`` (l,) [m], at least 0,
+        come on top of what each of `links` costs, as for the chance of failing there; one of math.inf is not
+        offered. ``costs`` say what a metre costs in each of the `areas`, as in {"mud":
         3.0}: 1 to 1e6, 1 for areas that are not named, math.inf for those that must not be entered. The route
         is cheap by the sum (`Route.cost`; docs/how-it-works/navmesh.md says how cheap), its length is in
         metres all the same. Never raises because of where the ends are: see `navmesh.routes.route.STATUSES`.
         Raises `NavmeshError` for arguments of a wrong kind.
         """
-        return pathfinding.find_path(
-            self, start, goal, radius, skills, node_costs, closed_links, extent, costs
-        )
+        return pathfinding.find_path(self, start, goal, radius, skills, node_costs, link_costs, extent, costs)
 
     def find_paths(
         self,

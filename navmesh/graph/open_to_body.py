@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
 __all__ = ["checked_radius", "checked_skills", "doors_of", "parts_of", "portals_of", "regions_of"]
 
-_NO_LINKS = np.empty(0, np.int64)
-
 
 def checked_radius(radius: Any) -> float:
     """``radius`` as a float; `NavmeshError` unless it is a finite number above 0."""
@@ -67,16 +65,18 @@ def portals_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
     return recent(graph.cache, "portals", radius, make)
 
 
-def _checked_links(graph: "NodeGraph", links: Any) -> np.ndarray:
-    """Indices of links (k,) int64, sorted."""
-    if isinstance(links, tuple) and not links:  # the default, on every query
-        return _NO_LINKS
-    index = np.unique(np.asarray(links)) if np.size(links) else np.empty(0, np.int64)
-    if index.dtype.kind not in "iu" or (len(index) and not 0 <= index[0] <= index[-1] < len(graph.links)):
-        raise NavmeshError(
-            f"closed_links: expected indices of the graph's {len(graph.links)} links, not {links!r}"
-        )
-    return index.astype(np.int64)
+def _checked_costs(graph: "NodeGraph", costs: Any) -> np.ndarray | None:
+    """Costs of the graph's links (l,) float64 [m]; None stays None."""
+    if costs is None:
+        return None
+    try:
+        checked = np.ascontiguousarray(costs, dtype=np.float64)
+    except (TypeError, ValueError):
+        checked = np.empty(0)
+    count = len(graph.links)
+    if checked.shape != (count,) or not np.all(checked >= 0.0):
+        raise NavmeshError(f"link_costs: expected {count} costs [m] of at least 0, one for each link")
+    return checked
 
 
 def parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
@@ -102,9 +102,11 @@ def regions_of(graph: "NodeGraph", radius: float) -> np.ndarray:
         return body.region[body.part]
 
 
-def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple, closed: np.ndarray) -> dict[str, np.ndarray]:
-    """The links on offer but the ``closed`` ones, grouped by the node they start from: the ``leap`` arrays of
-    `DOORS`."""
+def _leaps_for(
+    graph: "NodeGraph", radius: float, skills: tuple, link_costs: np.ndarray | None
+) -> dict[str, np.ndarray]:
+    """The links on offer, grouped by the node they start from: the ``leap`` arrays of `DOORS`. ``link_costs``
+    come on top of their own."""
     zones = graph.zone_state
     undivided = graph if zones is None else zones.undivided
     count, label, links = len(undivided), undivided.label, graph.links
@@ -112,7 +114,9 @@ def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple, closed: np.ndar
     for name, low, high in skills:
         of_kind = (links.affordance == name) & (links.height >= low) & (links.height <= high)
         chosen.append(np.flatnonzero(of_kind & (links.radius >= radius)))
-    index = np.setdiff1d(np.concatenate(chosen), closed) if chosen else np.empty(0, np.int64)
+    index = np.unique(np.concatenate(chosen)) if chosen else np.empty(0, np.int64)
+    if link_costs is not None:
+        index = index[np.isfinite(link_costs[index])]
     index = index[(label[links.start_cell[index]] >= 0) & (label[links.end_cell[index]] >= 0)]
     origin = graph.surface.origin
     start, end = links.start[index] - origin, links.end[index] - origin
@@ -121,6 +125,8 @@ def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple, closed: np.ndar
     order = np.lexsort((index, node))
     starts = np.searchsorted(node[order], np.arange(count + 1)).astype(np.int32)
     cost = np.maximum(links.cost[index], np.linalg.norm(end - start, axis=1))
+    if link_costs is not None:
+        cost += link_costs[index]
     return {
         "leap_start": starts,
         "leap_id": index[order].astype(np.int32),
@@ -135,31 +141,36 @@ def _leaps_for(graph: "NodeGraph", radius: float, skills: tuple, closed: np.ndar
 
 
 def doors_of(
-    graph: "NodeGraph", radius: float, skills: Any, node_costs: np.ndarray | None, closed_links: Any = ()
+    graph: "NodeGraph",
+    radius: float,
+    skills: Any,
+    node_costs: np.ndarray | None,
+    link_costs: Any = None,
 ) -> Any:
-    """The `Doors` for a body, made once for each radius, offer of skills and closed links (those with costs
-    each time)."""
+    """The `Doors` for a body, made once for each radius, offer of skills and costs of links (those with costs
+    of nodes each time)."""
     offered = checked_skills(skills) if skills else ()
-    closed = _checked_links(graph, closed_links)
+    priced = _checked_costs(graph, link_costs)
+    links = offered, None if priced is None else priced.tobytes()
 
     def make() -> Any:
-        return _doors(graph, radius, offered, closed, None)
+        return _doors(graph, radius, _leaps_for(graph, radius, offered, priced), node_costs)
 
     zones = graph.zone_state
     if zones is None:
         if node_costs is not None:
-            return _doors(graph, radius, offered, closed, node_costs)
-        return recent(graph.cache, "doors", (radius, offered, closed.tobytes()), make)
+            return make()
+        return recent(graph.cache, "doors", (radius, *links), make)
     with zones.lock:
         zoned_body(graph, radius)
-        key = radius, offered, closed.tobytes(), zones.slots
+        key = radius, *links, zones.slots
         doors = make() if node_costs is not None else recent(graph.cache, "doors", key, make)
         settle_leaps(zones, doors)
         return doors
 
 
 def _doors(
-    graph: "NodeGraph", radius: float, offered: tuple, closed: np.ndarray, node_costs: np.ndarray | None
+    graph: "NodeGraph", radius: float, leaps: dict[str, np.ndarray], node_costs: np.ndarray | None
 ) -> Any:
     count = len(graph.radii)
     if node_costs is None:
@@ -171,7 +182,7 @@ def _doors(
             costs = np.empty(0)
         if costs.shape != (count,) or not np.all(costs >= 1.0) or not np.all(np.isfinite(costs)):
             raise NavmeshError(f"node_costs: expected {count} finite factors of at least 1, one per node")
-    leaps, weighted = _leaps_for(graph, radius, offered, closed), node_costs is not None
+    weighted = node_costs is not None
     if graph.zone_state is not None:
         return zoned_body(graph, radius).doors(leaps, costs, weighted)
     part, tile_start, tile_part, tile_span = parts_of(graph, radius)

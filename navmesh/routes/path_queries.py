@@ -91,24 +91,24 @@ def find_path(
     radius: float = 0.3,
     skills: Mapping[str, tuple[float, float]] | None = None,
     node_costs: np.ndarray | None = None,
-    closed_links: Any = (),
+    link_costs: np.ndarray | None = None,
     extent: tuple[float, float] | None = None,
     costs: Mapping[str, float] | None = None,
 ) -> Route:
     """See `NodeGraph.find_path`."""
     if costs is not None and graph.zone_state is not None:
         return find_path(
-            plain_graph(graph), start, goal, radius, skills, node_costs, closed_links, extent, costs
+            plain_graph(graph), start, goal, radius, skills, node_costs, link_costs, extent, costs
         )
     sx, sy, sz = _point("start", start)
     gx, gy, gz = _point("goal", goal)
     radius = checked_radius(radius)
-    doors = doors_of(graph, radius, skills, node_costs, closed_links)
+    doors = doors_of(graph, radius, skills, node_costs, link_costs)
     reach, rise, step = _limits(graph, radius, extent)
     if costs is not None:
         priced = _priced(graph, doors, costs, node_costs)
         ends = (sx, sy, sz), (gx, gy, gz)
-        return _cheap_path(graph, *ends, doors, priced, (reach, rise, step), (skills, closed_links, extent))
+        return _cheap_path(graph, *ends, doors, priced, (reach, rise, step), (skills, link_costs, extent))
     scratch = _scratch_for(graph)
     status, length, expanded, nodes, waypoints, leaps = _compiled_answer()(
         net_of(graph), doors, scratch, graph.surface.origin, sx, sy, sz, gx, gy, gz, reach, rise, step
@@ -128,7 +128,7 @@ def _priced(graph: "NodeGraph", doors: Any, costs: Any, node_costs: Any) -> floa
 def _cheap_path(
     graph: "NodeGraph", start: Any, goal: Any, doors: Any, priced: float | Priced, limits: Any, offer: Any
 ) -> Route:
-    """`find_path` with costs. ``offer``: skills, closed links and extent."""
+    """`find_path` with costs. ``offer``: skills, costs of links and extent."""
     if not isinstance(priced, Priced):
         route = find_path(graph, start, goal, doors.radius, offer[0], None, *offer[1:])
         return replace(route, _cost=priced * route.length)
@@ -139,7 +139,7 @@ def _cheap_path(
     graph.cache["scratch"].append(scratch)
     if route is None:
         route = find_path(graph, start, goal, doors.radius, offer[0], None, *offer[1:])
-        return priced_route(graph, route, priced)
+        return priced_route(graph, route, priced, offer[1])
     return route
 
 
@@ -186,7 +186,7 @@ def find_paths(
 
         def one(start: np.ndarray, goal: np.ndarray) -> Route:
             ends = tuple(start.tolist()), tuple(goal.tolist())
-            return _cheap_path(graph, *ends, doors, priced, (reach, rise, step), (skills, (), extent))
+            return _cheap_path(graph, *ends, doors, priced, (reach, rise, step), (skills, None, extent))
 
         with ThreadPoolExecutor(int(workers)) as pool:
             return gathered(graph, radius, list(pool.map(one, first, second)))
@@ -265,7 +265,7 @@ class PathSearch:
         if isinstance(self._priced, Priced):
             self._area = AreaSearch(graph, self._doors, self._scratch, self._priced)
             self._area.begin(first, second, limits)
-            self._again = first, second, self._radius, skills, None, (), extent
+            self._again = first, second, self._radius, skills, None, None, extent
             return
         origin = graph.surface.origin
         sx, sy, sz = (np.array(first) - origin).tolist()

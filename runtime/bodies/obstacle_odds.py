@@ -1,14 +1,51 @@
-"""The odds of a person at an obstacle of the level."""
+"""The odds of a person at the obstacles of a level, and what they make of its links."""
 
 import numpy as np
 
 import navmesh
 from locomotion import Human, ObstacleAhead
-from locomotion.skills.interface import skill_for
+from locomotion.gaits.limits import PERSON_RULES
+from locomotion.ground.ground import FRICTION
+from locomotion.paths.run_up_room import straight_before
+from locomotion.skills.interface import skill_for, skill_ranges
+from navmesh.obstacles.kinds import kind_of
+from navmesh.recent import recent
 from runtime.errors import RuntimeInputError
 from surefoot.numeric import is_whole
 
-__all__ = ["odds_at"]
+__all__ = ["link_prices", "odds_at"]
+
+_FAILING = 30.0  # [m] of way that a failed try is worth: a fall, getting up, and another run-up
+_LEAST = 0.01  # odds that lower ones count as
+_ROOM = 16.0  # [m] before an edge that is looked at
+
+
+def link_prices(human: Human, graph: navmesh.NodeGraph) -> np.ndarray:
+    """(l,) [m] by which the chance of failing makes each link of ``graph`` dearer for ``human``: with odds of
+    p, (1 - p) / p tries fail before one holds. 0 where nothing is known of the skill. Worked out once for
+    each graph."""
+    known = [(skill, human.composition.precondition(skill)) for skill in human.clearing]
+    grip = FRICTION if human.ground is None else human.ground.friction
+
+    def make() -> np.ndarray:
+        links, prices = graph.links, np.zeros(len(graph.links))
+        room = straight_before(graph, PERSON_RULES["radius"], _ROOM)
+        depth = graph.obstacles.depth[links.obstacle]
+        for skill, precondition in known:
+            if precondition is None:
+                continue
+            low, high = skill_ranges([skill])[skill.affordance]
+            those = (links.affordance == skill.affordance) & (links.height >= low) & (links.height <= high)
+            rows = np.column_stack([links.height, depth, np.full(len(links), grip), room])[those]
+            if not kind_of(skill.affordance).has_depth:
+                rows[:, 1] = 0.0
+            odds = np.maximum(precondition.odds_before(rows), _LEAST)
+            prices[those] = _FAILING * (1.0 - odds) / odds
+        return prices
+
+    blocked = b"" if graph.zone_state is None else graph.zone_state.blocked.tobytes()
+    digests = tuple(None if each is None else (each.digest, skill.heights) for skill, each in known)
+    return recent(graph.cache, "link_prices", (digests, grip, blocked), make)
 
 
 def odds_at(human: Human, graph: navmesh.NodeGraph, obstacle: int | str, tag_ahead: str) -> float:

@@ -23,6 +23,7 @@ from locomotion.paths.run_up_room import cramped_links
 from locomotion.paths.table import TrackingLimits
 from locomotion.saved_arrays import check_array, check_number
 from locomotion.skills.interface import skill_ranges
+from runtime.bodies.obstacle_odds import link_prices
 from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
 from runtime.planning.planning import Beginning, NoWay, Plan, Way, find_way, pulled_plan, smoothing_way
@@ -47,7 +48,8 @@ class Order(NamedTuple):
 
     ``goals`` (k, 3) [m]. ``speed`` [m/s]. ``skilled``: whether its way may lead over obstacles; ``closed``:
     tags of those over which it may not. ``place`` (3,) [m], ``velocity`` (2,) [m/s]; ``walks``: whether it
-    walked or stood, ``clears``: whether it was over an obstacle.
+    walked or stood, ``clears``: whether it was over an obstacle. ``by_odds``: whether the odds of obstacles
+    count, as of `Human.by_odds`.
     """
 
     goals: np.ndarray
@@ -58,6 +60,7 @@ class Order(NamedTuple):
     velocity: np.ndarray
     walks: bool
     clears: bool
+    by_odds: bool
 
     @property
     def moves(self) -> bool:
@@ -88,8 +91,10 @@ class Planning:
         order: Order,
         skills: Mapping[str, tuple[float, float]],
         limits: TrackingLimits,
+        prices: np.ndarray | None = None,
     ) -> None:
-        """``skills``, ``limits`` (of running): of the person. Raises `NoWay`."""
+        """``skills``, ``limits`` (of running): of the person. ``prices`` (l,) [m]: of the graph's links, on
+        top of what they cost. Raises `NoWay`."""
         self.order, self.ticks = order, 0
         self.plan: Plan | None = None
         self._graph, self._limits, self._spent = graph, limits, 0
@@ -99,7 +104,7 @@ class Planning:
             goals=list(order.goals),
             radius=PERSON_RULES["radius"],
             skills=skills if order.skilled else {},
-            closed_links=_closed_links(graph, order.closed),
+            link_costs=_link_costs(graph, order.closed, prices),
         )
         way: Way | NoWay
         try:
@@ -162,12 +167,14 @@ class Planning:
         return leads(self._graph, order.place, order.velocity, target, self._limits, radius)
 
 
-def _closed_links(graph: navmesh.NodeGraph, tags: tuple[str, ...]) -> np.ndarray:
-    """Indices of the links over obstacles of these ``tags``, and of those without room for a run-up."""
-    cramped = cramped_links(graph, PERSON_RULES["radius"])
-    if not tags:
-        return cramped
-    return np.union1d(cramped, np.flatnonzero(np.isin(graph.obstacles.tag[graph.links.obstacle], list(tags))))
+def _link_costs(graph: navmesh.NodeGraph, closed: tuple[str, ...], prices: np.ndarray | None) -> np.ndarray:
+    """(l,) [m]: ``prices``, or 0; inf for links over obstacles of the tags ``closed``, and for those without
+    room for a run-up."""
+    costs = np.zeros(len(graph.links)) if prices is None else prices.copy()
+    costs[cramped_links(graph, PERSON_RULES["radius"])] = np.inf
+    if closed:
+        costs[np.isin(graph.obstacles.tag[graph.links.obstacle], list(closed))] = np.inf
+    return costs
 
 
 class OrdersState(NamedTuple):
@@ -185,7 +192,7 @@ class OrdersState(NamedTuple):
         """All of it, equal for equal orders."""
         orders = [self.order] if self.later is None else [self.order, self.later]
         arrays = [array.tobytes() for each in orders for array in (each.goals, each.place, each.velocity)]
-        plain = [(each.speed, each.skilled, each.closed, each.walks, each.clears) for each in orders]
+        plain = [(each.speed, each.skilled, each.closed, *each[6:]) for each in orders]
         return b"".join(arrays) + repr((plain, self.ticks, self.since, self.again)).encode()
 
 
@@ -211,12 +218,14 @@ class PersonOrders:
         return Order(
             goals, speed, skilled, tuple(closed), human.position, human.velocity[:2].copy(),
             human.on_feet.walks, human.status in CLEARING.values(),
+            human.by_odds,
         )  # fmt: skip
 
     def planned(self, order: Order) -> Planning:
         """The planning of ``order``, not begun. Raises `NoWay`."""
-        human = self._human
-        return Planning(self._level.graph, order, skill_ranges(human.clearing), human.on_feet.limits)
+        human, graph = self._human, self._level.graph
+        prices = link_prices(human, graph) if order.by_odds else None
+        return Planning(graph, order, skill_ranges(human.clearing), human.on_feet.limits, prices)
 
     def give(self, order: Order) -> Plan:
         """Plan ``order`` from now on, instead of what was told before; return the plan without smoothing. One

@@ -98,20 +98,21 @@ def find_way(
     goals: Sequence[np.ndarray],
     radius: float,
     skills: Mapping[str, tuple[float, float]],
-    closed_links: np.ndarray | Sequence[int] = (),
+    link_costs: np.ndarray | None = None,
 ) -> Way:
-    """The routes of `make_plan`, which raises `NoWay` where this does."""
+    """The routes of `make_plan`, which raises `NoWay` where this does. ``link_costs``: see
+    `NodeGraph.find_path`."""
     start = begin.start if begin.lead is None else begin.lead[-1]
     routes: list[Route | None] = []
     for index, goal in enumerate(goals):
         pause()
-        route = graph.find_path(start, goal, radius=radius, skills=skills, closed_links=closed_links)
+        route = graph.find_path(start, goal, radius=radius, skills=skills, link_costs=link_costs)
         if route.status != "complete":
-            raise NoWay(index, why_not(graph, route, start, goal, radius, skills, closed_links))
+            raise NoWay(index, why_not(graph, route, start, goal, radius, skills, link_costs))
         if len(route.waypoints) < 2:
             routes.append(None)
             continue
-        route = lined_up(route, skills, closed_links)
+        route = lined_up(route, skills, link_costs)
         routes.append(route)
         start = route.waypoints[-1]
     if begin.lead is None and all(route is None for route in routes):
@@ -150,14 +151,13 @@ def make_plan(
     radius: float,
     skills: Mapping[str, tuple[float, float]],
     smoothing: Smoothing = RUNNING,
-    closed_links: np.ndarray | Sequence[int] = (),
 ) -> Plan:
     """Plan from where it may ``begin`` through ``goals``, each (3,), for a body of ``radius`` [m] with
-    ``skills``, over no link of ``closed_links`` (indices).
+    ``skills``.
 
     ``smoothing`` is what it wants of its path. Raises `NoWay`.
     """
-    return finish(smoothing_way(find_way(graph, begin, goals, radius, skills, closed_links), smoothing))
+    return finish(smoothing_way(find_way(graph, begin, goals, radius, skills), smoothing))
 
 
 def _joined(way: Way, paths: Sequence[SmoothPath]) -> Plan:
@@ -222,18 +222,18 @@ def why_not(
     goal: np.ndarray,
     radius: float,
     skills: Mapping[str, tuple[float, float]],
-    closed_links: np.ndarray | Sequence[int] = (),
+    link_costs: np.ndarray | None = None,
 ) -> str:
     """Why ``route``, found from ``start`` to ``goal`` (3,) for a body of ``radius`` [m] with ``skills`` but
-    over none of ``closed_links``, does not lead there: over what a way would lead is named."""
+    and ``link_costs``, does not lead there: over what a way would lead is named."""
     if route.status == "off_graph":
         if graph.find_path(start, start, radius=radius).status == "off_graph":
             return "the way there begins at a place where the body does not fit"
         return "it is not near a place where the body fits"
     links = graph.links
-    shut = graph.find_path(start, goal, radius=radius, skills=skills) if len(closed_links) else route
+    shut = graph.find_path(start, goal, radius=radius, skills=skills) if link_costs is not None else route
     if shut.status == "complete":
-        return "no way leads there without " + ", ".join(_cramped(graph, shut, radius, closed_links))
+        return "no way leads there without " + ", ".join(_cramped(graph, shut, radius, link_costs))
     every = dict.fromkeys(np.unique(links.affordance).tolist(), (0.0, float(links.height.max(initial=0.0))))
     over = graph.find_path(start, goal, radius=radius, skills=every)
     reason = "no way leads there on foot or with the skills at hand"
@@ -250,16 +250,16 @@ def why_not(
 
 
 def _cramped(
-    graph: navmesh.NodeGraph, route: Route, radius: float, closed_links: np.ndarray | Sequence[int]
+    graph: navmesh.NodeGraph, route: Route, radius: float, link_costs: np.ndarray | None
 ) -> list[str]:
-    """What is wrong with each of the ``closed_links`` on a route."""
+    """What is wrong with each of the links on a route that ``link_costs`` close."""
     kinds, sizes = graph.obstacles.affordance, graph.obstacles.size
     straight = straight_before(graph, radius, LEAST_RUN_UP)
     return [
         f"the {kinds[use.obstacle]} of {sizes[use.obstacle]:.2f} m, which has {straight[use.link]:.1f} m for "
         f"a straight run-up (at least {LEAST_RUN_UP:g} m are needed)"
         for use in route.links
-        if use.link in set(np.asarray(closed_links).tolist())
+        if link_costs is not None and np.isinf(link_costs[use.link])
     ]
 
 

@@ -13,7 +13,7 @@ from surefoot.workers.pool import Place
 
 __all__ = ["STARTS", "sampled_skills", "train_preconditions"]
 
-STARTS = 400
+STARTS = 2000
 """Starts of each skill that the package's preconditions are learned from."""
 
 

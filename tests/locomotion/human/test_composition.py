@@ -15,6 +15,11 @@ from locomotion.skills.course import make_course
 from locomotion.skills.learned_skill import LearnedSkill
 
 
+def jump_of(human):
+    """Its skill to jump."""
+    return next(skill for skill in human.clearing if skill.affordance == "jump")
+
+
 def always(odds, known, before=None):
     """A precondition that always says ``odds``."""
 
@@ -76,22 +81,22 @@ def test_bravery_is_a_share():
 
 
 def test_a_skill_of_ones_own_with_the_packages_range_has_no_odds_of_it():
-    course = make_course([("jump", 0.4, 0.0)], [12.0])
-    own = copy(next(skill for skill in Human().clearing if skill.affordance == "jump"))
-    obstacle = course.obstacles[0]
-    assert Human(rehearsals=0).composition.precondition(obstacle) is load_preconditions()["jump"]
+    own = copy(jump_of(Human()))
+    human = Human(rehearsals=0)
+    assert human.composition.precondition(jump_of(human)) is load_preconditions()["jump"]
     law = own._law
     own._tables, own._law = {}, lambda size: replace(law(size), parameters=1.001 * law(size).parameters)
     human = Human(rehearsals=0, clearing=[own])
     assert own.heights == load_preconditions()["jump"].heights
-    assert human.composition.precondition(obstacle) is None
+    assert human.composition.precondition(own) is None
 
 
 def test_skills_on_a_run_of_ones_own_have_no_odds():
-    run, obstacle = load_run_skill(), make_course([("jump", 0.4, 0.0)], [12.0]).obstacles[0]
-    assert Human(skill=run, rehearsals=0).composition.precondition(obstacle) is not None
+    run = load_run_skill()
+    human = Human(skill=run, rehearsals=0)
+    assert human.composition.precondition(jump_of(human)) is not None
     other = Human(skill=replace(run, max_lateral=0.9 * run.max_lateral), rehearsals=0)
-    assert other.composition.precondition(obstacle) is None
+    assert other.composition.precondition(jump_of(other)) is None
 
 
 def test_whose_skills_they_are_is_known_without_working_out_a_law_or_loading_any(monkeypatch):
@@ -99,5 +104,4 @@ def test_whose_skills_they_are_is_known_without_working_out_a_law_or_loading_any
     human, known = Human(rehearsals=0), load_preconditions()["jump"]
     monkeypatch.setattr(LearnedSkill, "tables", None)
     monkeypatch.setattr(zipfile, "ZipFile", None)
-    obstacle = make_course([("jump", 0.4, 0.0)], [12.0]).obstacles[0]
-    assert human.composition.precondition(obstacle) is known
+    assert human.composition.precondition(jump_of(human)) is known

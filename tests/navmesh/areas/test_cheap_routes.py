@@ -96,8 +96,13 @@ def test_skills_are_offered_with_costs() -> None:
     use = route.links[0]
     np.testing.assert_allclose(route.waypoints[use.first], graph.links.start[use.link], atol=1e-9)
     np.testing.assert_allclose(route.waypoints[use.last], graph.links.end[use.link], atol=1e-9)
-    closed = graph.find_path(start, goal, skills=skills, costs={"mud": 2.0}, closed_links=[use.link])
+    dearer = np.zeros(len(graph.links))
+    dearer[use.link] = np.inf
+    closed = graph.find_path(start, goal, skills=skills, costs={"mud": 2.0}, link_costs=dearer)
     assert not any(other.link == use.link for other in closed.links)
+    dearer[:] = 5.0
+    dear = graph.find_path(start, goal, skills=skills, costs={"mud": 2.0}, link_costs=dearer)
+    assert dear.cost == pytest.approx(route.cost + 5.0)
     assert same(graph.find_paths([start], [goal], skills=skills, costs={"mud": 2.0})[0], route)
 
 

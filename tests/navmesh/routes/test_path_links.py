@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from navmesh import NodeGraph, Terrain
+from navmesh import NavmeshError, NodeGraph, Terrain
 
 COURTYARD = Path(__file__).resolve().parents[3] / "examples" / "levels" / "courtyard.obj"
 SKILLS = {"jump": (0.1, 0.7), "vault": (0.6, 1.0), "drop": (0.9, 2.0), "gap": (0.3, 3.0)}
@@ -59,3 +59,32 @@ def test_only_what_is_offered_is_used(graph: NodeGraph, pairs: tuple[np.ndarray,
             assert graph.links.affordance[use.link] == "jump"
             assert 0.1 <= graph.links.height[use.link] <= 0.45
             assert graph.links.radius[use.link] >= 0.35
+
+
+def test_links_are_as_much_dearer_as_they_are_told(
+    graph: NodeGraph, pairs: tuple[np.ndarray, np.ndarray]
+) -> None:
+    """A route over a link becomes at most as much dearer, and leads elsewhere if that is cheaper."""
+    rng, kept, avoided = np.random.default_rng(3), 0, 0
+    for start, goal in zip(*pairs, strict=True):
+        route = graph.find_path(start, goal, skills=SKILLS)
+        if route.status != "complete" or not route.links:
+            continue
+        those = graph.links.obstacle == route.links[0].obstacle
+        closed = graph.find_path(start, goal, skills=SKILLS, link_costs=np.where(those, np.inf, 0.0))
+        assert not any(those[use.link] for use in closed.links)
+        dearer = graph.find_path(start, goal, skills=SKILLS, link_costs=those * rng.uniform(0.0, 30.0))
+        over = np.array_equal(dearer.waypoints, route.waypoints)
+        assert over or np.array_equal(dearer.waypoints, closed.waypoints)
+        kept, avoided = kept + over, avoided + (not over)
+        if closed.status == "complete":
+            dear = graph.find_path(start, goal, skills=SKILLS, link_costs=those * 1e3)
+            assert np.array_equal(dear.waypoints, closed.waypoints)
+    assert kept > 3 and avoided > 3
+
+
+@pytest.mark.parametrize("costs", [-1.0, np.nan, "dear", None])
+def test_costs_of_links_are_checked(graph: NodeGraph, costs: object) -> None:
+    wrong = [costs] * len(graph.links) if costs is not None else [0.0]
+    with pytest.raises(NavmeshError, match=r"link_costs: expected \d+ costs \[m\] of at least 0"):
+        graph.find_path((3.0, 3.0, 0.0), (46.0, 4.0, 0.3), link_costs=wrong)

@@ -2,19 +2,23 @@
 
 import numpy as np
 import pytest
+import trimesh
 
 import navmesh
+from locomotion import ObstacleAhead
 from locomotion.human.composition import Composition
+from locomotion.paths.run_up_room import straight_before
+from locomotion.preconditions.precondition import Precondition
 from locomotion.skills.course import make_course
 from runtime import RuntimeInputError, Stuck, TurnedAway, World
-from runtime.bodies.obstacle_odds import odds_at
+from runtime.bodies.obstacle_odds import link_prices, odds_at
+from runtime.planning.rules import obstacle_rules, person_walk_rules
+from tests.runtime.playtest.levels import box
 
 
 @pytest.fixture(scope="module")
 def graph():
     course = make_course([("jump", 0.5, 0.0)], [10.0], margin=2.0)
-    from runtime.planning.rules import obstacle_rules, person_walk_rules
-
     terrain = navmesh.Terrain.from_arrays(course.vertices, course.faces)
     return navmesh.NodeGraph.build(terrain, person_walk_rules(), obstacle_rules({}))
 
@@ -68,3 +72,41 @@ def test_the_next_person_is_not_brave_because_the_last_one_was(graph):
     assert ada.level == "full" and ada.bravery == 0.3
     bob = world.spawn("human", (2.0, 0.0, 0.0))
     assert bob.human is brave and bob.bravery is None and bob.human.bravery is None
+
+
+@pytest.fixture(scope="module")
+def wall():
+    """A wall of 0.8 m across a floor, round which there is a way, too."""
+    floor, fence = box(0, 24, -3, 12, -0.5, 0), box(12.0, 12.3, -3, 8, -0.2, 0.8)
+    level = trimesh.util.concatenate([floor, fence])
+    terrain = navmesh.Terrain.from_arrays(level.vertices, level.faces)
+    return navmesh.NodeGraph.build(terrain, person_walk_rules(), obstacle_rules({}))
+
+
+def over(world, **told):
+    """The obstacles on the way of somebody to the other side of the wall."""
+    ada = world.spawn("human", (2.0, 0.0, 0.0), **told)
+    ada.go_to((22.0, 0.0, 0.0))
+    return [obstacle.affordance for obstacle in ada.plans[-1].obstacles]
+
+
+def test_who_goes_by_odds_goes_round_what_it_would_fail_at(wall, monkeypatch):
+    for odds, leads_over in ((0.95, ["vault"]), (0.3, [])):
+        monkeypatch.setattr(Precondition, "odds_before", lambda self, rows, p=odds: np.full(len(rows), p))
+        wall.cache.clear()
+        assert over(World(wall, rehearsals=0), bravery=0.9) == leads_over
+        assert over(World(wall, rehearsals=0)) == over(World(wall), bravery=0.9) == ["vault"]
+
+
+def test_a_link_is_as_much_dearer_as_tries_fail_before_one_holds(wall):
+    wall.cache.clear()
+    human = World(wall, rehearsals=0).spawn("human", (2.0, 0.0, 0.0)).human
+    prices, links = link_prices(human, wall), wall.links
+    for k in np.flatnonzero(links.affordance == "vault")[::7]:
+        ahead = ObstacleAhead(
+            9.0, "vault", links.height[k], links.edge[k], wall.obstacles.normal[links.obstacle[k]], 0.3
+        )
+        odds = human.composition.odds(ahead, straight_before(wall, 0.3, 16.0)[k])
+        assert prices[k] == pytest.approx(30.0 * (1.0 - odds) / odds, rel=1e-3) and prices[k] > 0.0
+    human.composition.preconditions = {}
+    assert not link_prices(human, wall).any()

@@ -24,7 +24,7 @@ def graph():
 
 def order(place, *goals, velocity=(0.0, 0.0), walks=True):
     there = np.array(goals, dtype=np.float64)
-    return Order(there, 3.0, True, (), np.array(place), np.array(velocity), walks, False)
+    return Order(there, 3.0, True, (), np.array(place), np.array(velocity), walks, False, False)
 
 
 def planning(graph, told):

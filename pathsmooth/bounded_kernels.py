@@ -50,7 +50,7 @@ IMPOSSIBLE = 2
 CERTAIN = 1e-6  # share of the bound by which a proof must hold, for rounding
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _bend(packed, d, i, axis):
     """Second difference of the displacements at an inner waypoint."""
     return packed[LEFT, i] * (d[i - 1, axis] - d[i, axis]) + packed[RIGHT, i] * (d[i + 1, axis] - d[i, axis])
@@ -70,7 +70,7 @@ def _spread(packed, force, out, first, last):
             out[i, axis] = value
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _curve_dual(packed, kappa, u, r, relaxation, back, here, ahead):
     """Update u at inner waypoint r; back, here, ahead: 2 d' - d at r - 1, r, r + 1, as (x, y)."""
     c = packed[CURVE_STEP, r]

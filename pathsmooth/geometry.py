@@ -45,7 +45,7 @@ def _interpolate(at, places, rows, result):
             result[i, column] = value
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def lens_corners(ax, ay, ra, bx, by, rb):
     """The two points where the rims of two discs meet; of no meaning where they do not."""
     dx = bx - ax

@@ -86,7 +86,7 @@ def factorise(packed, first, last):
         packed[PIVOT, i] = 1.0 / diagonal
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _coefficient(packed, row, i):
     if i == row - 1:
         return packed[LEFT, row]
@@ -97,7 +97,7 @@ def _coefficient(packed, row, i):
     return 0.0
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def project(packed, i, x, y):
     """The point of C_i nearest to (x, y)."""
     ux = x - packed[AX, i]
@@ -131,7 +131,7 @@ def project(packed, i, x, y):
     return packed[QX, i], packed[QY, i]
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def lowest(packed, i, gx, gy):
     """Minimum of <g, d> over C_i."""
     g = np.sqrt(gx * gx + gy * gy)

@@ -27,7 +27,7 @@ SHIFT = 0.1
 """Fraction of the spacing by which a merged waypoint's target may leave the pulled path."""
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _inside_part(x, y, ux, uy, length, cx, cy, radius):
     """Part of a segment inside a disc: its first and last arc length from the segment's start; last <
     first: none."""

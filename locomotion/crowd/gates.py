@@ -45,7 +45,7 @@ class Gates(NamedTuple):
     """(gates,) [m] half the least width."""
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _cosine(net, ax, ay, a, bx, by, b):
     """Between the directions of the places (ax, ay) and (bx, by) as seen from the cells a and b."""
     near, other = max(net.clearance[a], 1e-9), max(net.clearance[b], 1e-9)
@@ -74,7 +74,7 @@ def _mark_throats(net, limit, found):
                 found[c] = found[n] = True
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _cover(c, t, part, row, by, seen, parent, covered):
     """Note that cell ``c`` is under the disc of throat ``t``: (whether that is new, cells covered by now)."""
     at = row[c]

@@ -53,7 +53,7 @@ def advance_all(state, params, gaits, pool, ground, origin, feet, crumbs, poses,
         write_pose(st, pr, feet[i], poses[pose_start[i] : pose_start[i + 1]], joints[i])
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _move(st, pr, pool):
     if st[at.MODE] == at.ON_TRAIL:
         advance_along(st, pr, pool)

@@ -14,7 +14,7 @@ from surefoot.kernels import kernel
 __all__ = ["bend_back", "bone_drop", "chord_pitch", "girdles", "pelvis_pitch"]
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def bone_drop(k, bones, sacral):
     """Share of the flexion between the first bone and bone ``k``, counted from 1."""
     return (1.0 - sacral) * (k - 1.0) * (2.0 * bones - k) / (bones * (bones - 1.0))

@@ -23,13 +23,13 @@ __all__ = ["front_of", "on_trail", "place_body", "root_behind", "spring", "wante
 _HALF_LIFE = 0.16  # [s] of an offset
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def wrap(angle):
     """The same angle [rad] between -π and π."""
     return angle - 2.0 * math.pi * math.floor((angle + math.pi) / (2.0 * math.pi))
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def spring(value, rate, half_life):
     """A critically damped spring towards 0 after one tick: (value, rate)."""
     y = 2.0 * 0.69314718056 / half_life

@@ -105,7 +105,7 @@ def _carry_pair(st, feet, carried, z, wanted, lift, x, y, direction, width, roll
     st[z] = _below(wanted + off + lift, taut, reach)
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _below(height, limit, size):
     """``height`` [m] kept under a limit, without a kink where it comes near it; ``size`` [m] of the body."""
     soft = _SOFT * size

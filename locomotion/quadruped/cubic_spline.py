@@ -34,7 +34,7 @@ def natural_spline(at: NDArray[np.float64], values: NDArray[np.float64]) -> NDAr
     return out
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _place(pieces, piece, i, s):
     """Coordinate ``i`` of a spline, ``s`` behind the first knot of ``piece``."""
     a, b, c = pieces[0, piece, i], pieces[1, piece, i], pieces[2, piece, i]

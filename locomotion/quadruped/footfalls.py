@@ -33,13 +33,13 @@ _SINK_AHEAD = 0.84  # the same for a foot before it, over which it is yet to com
 _SLACK = 0.12  # [m] above a step that a foot may find ground off the surface it is on
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _ramp(u):
     """Way made by a speed that rises to 1 by the smoothstep while ``u`` goes from 0 to 1."""
     return u * u * u * (1.0 - 0.5 * u)
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _stride(u, ramp):
     """Share of its way that a foot has made at the share ``u`` of its swing: it speeds up over the share
     ``ramp``, goes on evenly, and slows down as long; neither speed nor acceleration jumps."""

@@ -23,13 +23,13 @@ _FORESIGHT = (
 _SHORTER = 0.6  # [1/rad] of slope by which strides become shorter and quicker
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def eased(now, goal, rate):
     """``now`` one tick nearer to ``goal``."""
     return goal + (now - goal) * math.exp(-rate * DT)
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def stride_rate(st):
     """[1/s] at which what belongs to a gait is eased into what belongs to the next."""
     return st[at.FREQUENCY_WISH] / _FADE
@@ -82,14 +82,14 @@ def step_gait(st, pr, gaits, feet):
         st[at.CLOCK] -= math.floor(st[at.CLOCK])
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def leg_phase(st, leg):
     """Share of the stride since ``leg`` touched down, 0 to 1."""
     phase = st[at.CLOCK] - st[at.TOUCHDOWN_NOW + leg]
     return phase - math.floor(phase)
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _late(st, gait, leg):
     """Share of the stride, 0 to 1, by which ``leg`` should come down later to be in the gait's order."""
     off = gait[at.TOUCHDOWN + leg] - st[at.TOUCHDOWN_NOW + leg]

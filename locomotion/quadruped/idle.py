@@ -47,7 +47,7 @@ def live_on(st, pr):
     st[at.BREATH] -= math.floor(st[at.BREATH])
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _turns(st, pr, units, habit):
     """How many times a thing has been done that takes ``units`` each time; faster and slower by turns."""
     tempo = 0.8 + 0.4 * st[at.HABITS + 3]
@@ -57,7 +57,7 @@ def _turns(st, pr, units, habit):
     return now + 0.3 * math.sin(2.5 * now)
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _nth(n, start, walk):
     """The ``n``-th place, -1 to 1."""
     place = start + n * walk

@@ -21,7 +21,7 @@ _SOFT = 0.35  # of the foot bone's length over which it begins to turn down
 _UNCURL = 1.2  # of the foot bone's length over which a paw gives up its curl, around the same place
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def two_bones(x, z, upper, lower, side):
     """Angles [rad] of two bones of lengths ``upper`` and ``lower`` [m] that end at (x, z); the joint between
     them points forwards (side 1) or backwards (-1). Places out of reach get the straight or folded leg.

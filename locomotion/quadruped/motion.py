@@ -32,13 +32,13 @@ SLACKEN = 2.4
 _FORESIGHT = 0.25  # [s] ahead on the trail that the speed of a bend is looked up
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def stop_time(speed, braking):
     """[s] of a stop from ``speed`` [m/s] that never brakes harder than ``braking`` [m/s²]."""
     return max(1.5 * speed / braking, _SHORTEST_STOP)
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def stop_length(speed, braking):
     """[m] that a stop from ``speed`` [m/s] takes."""
     return 0.5 * speed * stop_time(speed, braking)

@@ -44,7 +44,7 @@ def body_parents(bones: int) -> list[int]:
     return parents
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _frame(row, x, y, z, yaw, up):
     """A frame at (x, y, z) whose x axis points to ``yaw`` and ``up`` [rad] over the horizontal."""
     cy, sy = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
@@ -53,7 +53,7 @@ def _frame(row, x, y, z, yaw, up):
     row[3], row[4], row[5], row[6] = cy * cp, -sy * sp, cy * sp, sy * cp
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _roll_frame(row, roll):
     """Turn a frame about its own x axis: the left side up by ``roll`` [rad]."""
     c, s = math.cos(0.5 * roll), math.sin(0.5 * roll)
@@ -61,7 +61,7 @@ def _roll_frame(row, roll):
     row[3], row[4], row[5], row[6] = w * c - i * s, i * c + w * s, j * c + k * s, k * c - j * s
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _leg_frame(row, x, y, z, cy, sy, ca, sa, angle):
     """A frame at (x, y, z): turned by the half angles of yaw and abduction, x along a bone at ``angle``."""
     half = 0.5 * (0.5 * math.pi - angle)

@@ -23,13 +23,13 @@ from surefoot.kernels import allocating_kernel, kernel
 __all__ = ["bend_for", "brute_force_bend", "chord", "spine_points"]
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def bend_for(angle, bones):
     """θ [rad] that brings the end of ``bones`` bones to ``angle`` [rad] from the root's direction."""
     return 2.0 * angle / (bones + 1.0)
 
 
-@allocating_kernel(inline="always")
+@allocating_kernel(forceinline=True)
 def chord(bend, bones, bone):
     """[m] from the root to the end of the spine: ``bones`` of length ``bone`` [m], turned by ``bend``."""
     half = 0.5 * bend

@@ -46,7 +46,7 @@ def swing_tail(st, pr, yaw, pitch):
         up = st[own]
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _pulled(angle, rate, to, stiff):
     rate += DT * stiff * (stiff * (to - angle) - 2.0 * _DAMPING * rate)
     return angle + DT * rate, rate

@@ -154,7 +154,7 @@ def _plan_speed(rows: NDArray[np.float64], step: float, body: Body) -> None:
     rows[:, at.PSPEED] = np.sqrt(np.maximum(least, _CREEP**2))
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _place(count, step, arc):
     """Row and share of the way to the next for an arc length on the trail."""
     along = min(max(arc / step, 0.0), count - 1.0)

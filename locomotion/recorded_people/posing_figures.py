@@ -134,7 +134,7 @@ def _small_steps(steps, size, out):
                 out[side, step, k] = steps[side, step, k] / size if k < 3 else steps[side, step, k]
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _enlarge(root, size):
     """Put a root where that of a figure of a ``size`` is."""
     for k in range(3):

@@ -13,7 +13,7 @@ from surefoot.kernels import kernel
 __all__ = ["area_at", "price"]
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _part_of(at):
     """The part of a cell, 0 to PARTS - 1, at ``at`` parts from its side."""
     part = int(at)

@@ -58,7 +58,7 @@ def leg_fits(net, node, k, ax, ay, bx, by, target, radius):
     return walk(net, k, ax, ay, bx, by, radius, False)[0]
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def sector_of(dx, dy):
     """Which eighth of the circle, 0 to 7, a direction lies in."""
     return 4 * (dx > 0.0) + 2 * (dy > 0.0) + (abs(dx) > abs(dy))

@@ -26,7 +26,7 @@ _LEGS = 3  # of an end, to the nearest stops of its node in each eighth of the c
 _APART = 2.0  # by which the straight line is counted more where a body does not fit on it
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _rest(road, trip, stop):
     """At least so much [m] is left from a stop to the goal."""
     ends, landmark, bound = trip.ends, road.landmark, trip.bound

@@ -12,7 +12,7 @@ from surefoot.kernels import kernel
 __all__ = ["nearest_reachable"]
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _may_reach(net, doors, scratch, k):
     """Whether scratch.reached marks the part of any node that `node_at` can give for cell ``k``."""
     for i in range(CANDIDATES):

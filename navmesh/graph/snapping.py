@@ -100,7 +100,7 @@ CANDIDATES = 13
 """How many nodes `candidate` has to be asked for."""
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def candidate(net, k, radius, i):
     """The ``i``-th of the nodes that `node_at` can give for a place in cell ``k``, or -1: that of the cell,
     then those of the cells beside it."""
@@ -116,7 +116,7 @@ def candidate(net, k, radius, i):
     return net.label[other] if other >= 0 and net.clearance[other] >= radius else -1
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def squared_distance(net, k, px, py, x, y, z, step):
     """Squared distance of the floor at p in cell ``k`` from (x, y, z); ``step`` of the height is free."""
     rise = max(abs(floor_at(net, k, px, py) - z) - step, 0.0)

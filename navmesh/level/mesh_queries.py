@@ -82,7 +82,7 @@ class MeshGrid:
         return MeshArrays(self.triangles, self.start, self.member, self.size, *self.shape)
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _column(grid, x, y):
     ix = math.floor(x / grid.size)
     iy = math.floor(y / grid.size)
@@ -91,7 +91,7 @@ def _column(grid, x, y):
     return ix * grid.ny + iy
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _over(table, f, x, y):
     """Whether (x, y) is inside a prepared triangle that has a height there."""
     turn = 0

@@ -58,7 +58,7 @@ class Patch(NamedTuple):
     units of `side`."""
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def middle_of(patch, column):
     """x and y of the middle of a column's square."""
     ix = column // patch.ny
@@ -66,7 +66,7 @@ def middle_of(patch, column):
     return (ix + patch.left + 0.5) * patch.side, (iy + patch.near + 0.5) * patch.side
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def column_at(patch, x, y):
     """The column that (x, y) is in, or -1 where the patch has none."""
     ix = math.floor(x / patch.side) - patch.left

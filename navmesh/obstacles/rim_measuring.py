@@ -204,7 +204,7 @@ def _free(grid, cells, x, y, z, dx, dy, limits, reach):
     return free_length(grid, cells, x, y, z, dx, dy, slope, step, headroom, reach)
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _note(row, height, depth, run_up, landing, rise):
     row[0] = height
     row[1] = depth

@@ -87,7 +87,7 @@ def search_cells(net, scratch, start, goal, radius):
     return cells
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _fits_on(net, k, ax, ay, x, y, radius):
     """Whether a body of ``radius`` gets straight from a, in cell ``k``, to (x, y)."""
     reached, _, gap = walk(net, k, ax, ay, x, y, radius, True)[:3]

@@ -16,7 +16,7 @@ from surefoot.kernels.fetching import fetch
 __all__ = ["fetch_corners", "fetch_line"]
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _where_it_leaves(net, node, ax, ay, ux, uy, length, room):
     """The column in which the line from a along the unit vector u leaves the disc of ``node``, shrunk by
     ``room``, or ends; -1 where it misses the disc."""
@@ -47,7 +47,7 @@ def fetch_line(net, nodes, low, high, ax, ay, bx, by, radius):
             fetch_cell(net, np.int64(net.column_start[column]))
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _cell_of(doors, edges, at):
     """The cell at the end of a portal, told as `navmesh.routes.funnel.funnel` does."""
     return np.int64(doors.portal_cell[edges[at >> 1], at & 1])

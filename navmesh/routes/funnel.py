@@ -10,7 +10,7 @@ _SHARP = 0.5
 """Cosine of the turn up to which one corner rounds it; sharper turns get two."""
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _turn(ax, ay, bx, by, cx, cy):
     """Twice the area of a-b-c, positive where c lies to the left of a-b."""
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
@@ -73,7 +73,7 @@ def funnel(doors, edges, first, last, narrow, work, at, base, sx, sy, gx, gy):
     return count + 1 - base
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _between(ax, ay, bx, by, qx, qy, radius, arc):
     """Corners of a line that touches the circle of ``radius`` about q from outside, first where the unit
     normal a points to, last where b does: they lie where the tangents meet.

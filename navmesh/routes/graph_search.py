@@ -58,18 +58,18 @@ _SAME = 1e-9  # [m]
 _AHEAD = 4  # doors of a node that are fetched when it gets a label
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _distance(ax, ay, az, bx, by, bz):
     return sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz))
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _turn(ax, ay, bx, by, cx, cy):
     """Twice the area of a-b-c, positive where c lies to the left of a-b."""
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _crossing(lx, ly, rx, ry, ax, ay, bx, by):
     """Where on the portal (0 left, 1 right) the shortest way from a over the portal to b crosses it."""
     px = rx - lx
@@ -86,7 +86,7 @@ def _crossing(lx, ly, rx, ry, ax, ay, bx, by):
     return 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _out_of_funnel(ax, ay, az, lx, ly, lz, rx, ry, rz, gx, gy, gz):
     """Length of the shortest line from the apex a through the funnel between l and r to g."""
     beyond_left = _turn(ax, ay, lx, ly, gx, gy) > 0.0
@@ -130,7 +130,7 @@ def begin(net, doors, scratch, start_node, goal_node, sx, sy, sz, gx, gy, gz):
     scratch.heap_item[0] = 0
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _place_for(seen, labels, totals, stamp, node, total, used):
     """Take for a label that costs ``total`` the place of the dearest of ``node``, or one that is free.
 

@@ -5,7 +5,7 @@ from surefoot.kernels import kernel
 __all__ = ["push", "take_first"]
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def push(keys, items, size, key, item):
     """Add an entry to the ``size`` that are there."""
     i = size
@@ -20,7 +20,7 @@ def push(keys, items, size, key, item):
     items[i] = item
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def take_first(keys, items, size):
     """Remove the entry with the least key, the first, of ``size``."""
     last = size - 1

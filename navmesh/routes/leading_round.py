@@ -80,7 +80,7 @@ def lead_round(net, scratch, height, k, ax, ay, x, y, bx, by, qx, qy, radius):
     return parts
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _inside(cx, cy, room, x, y):
     """The point of the disc of radius ``room`` about c that is nearest to (x, y)."""
     d = sqrt((x - cx) ** 2 + (y - cy) ** 2)
@@ -88,7 +88,7 @@ def _inside(cx, cy, room, x, y):
     return cx + share * (x - cx), cy + share * (y - cy)
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _apart(x, y, ax, ay, bx, by):
     """Whether (x, y) is a place of its own beside a and b."""
     return (x - ax) ** 2 + (y - ay) ** 2 > 1e-6 and (x - bx) ** 2 + (y - by) ** 2 > 1e-6

@@ -226,7 +226,7 @@ def _finish(net, doors, scratch, leaps):
     return (numbers[_STATUS] if reached else _PARTIAL), nodes, corners, used
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _far(ax, ay, az, bx, by, bz):
     return sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz))
 

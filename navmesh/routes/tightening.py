@@ -22,7 +22,7 @@ _HALVINGS = 6  # of the way then
 _CHANGES = 48  # of one leg
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _far(ax, ay, bx, by):
     return sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by))
 

@@ -23,7 +23,7 @@ def parts_reached(parts: int, start: int, source: np.ndarray, target: np.ndarray
         reached[fresh] = True
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _off(place, k, x, y, z):
     """How far the ``k``-th place is from (x, y, z)."""
     dx, dy, dz = place[k, 0] - x, place[k, 1] - y, place[k, 2] - z

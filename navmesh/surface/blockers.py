@@ -24,7 +24,7 @@ _OUTLINE = 9
 centre of the square that it covers."""
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _square(link, c, d):
     """What is in the square beside cell ``c`` in direction d, 4 to 7 being the corners, and -1 its own.
 

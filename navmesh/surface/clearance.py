@@ -24,7 +24,7 @@ _NONE = -0.0
 """[m] This added to a number gives the number, also to -0.0."""
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _nearer(nearest, n, dx, dy, way, best, x, y, origin, so_far):
     """The nearer of the place that cell ``n`` knows, (dx, dy) from here, and the one (x, y) that cell
     ``origin`` told by the way ``so_far``: (squared distance, x, y, cell, way). -1 is no cell."""
@@ -35,7 +35,7 @@ def _nearer(nearest, n, dx, dy, way, best, x, y, origin, so_far):
     return best, x, y, origin, so_far
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _over(column_start, storey, c, way, column):
     """The cell of ``column`` that cell ``c`` is linked to, -1 for none."""
     return np.int64(column_start[column]) + storey[c, way] if storey[c, way] != APART else np.int64(-1)
@@ -102,13 +102,13 @@ def sweep(
                 _put(c, 2 * turn + 1, nearest, source, known, known_source)
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _take(c, turn, nearest, squared, source, known, known_source):
     x, y = known[turn, c, 0], known[turn, c, 1]
     nearest[c, 0], nearest[c, 1], squared[c], source[c] = x, y, x * x + y * y, known_source[turn, c]
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _put(c, turn, nearest, source, known, known_source):
     known[turn, c, 0], known[turn, c, 1] = nearest[c, 0], nearest[c, 1]
     known_source[turn, c] = source[c]

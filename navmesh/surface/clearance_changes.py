@@ -119,7 +119,7 @@ def _recalled(old, c, column, turn, patch, hops):
     return x, y, own, column, hops
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _inside(patch, column, window):
     """Whether a column of ``patch`` is in ``window``."""
     ix = column // patch.ny
@@ -188,7 +188,7 @@ def _swept(
     return disturbed, nearest, source, choice
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _of_whole(patch, whole, column):
     """The column of the ``whole`` that a column of ``patch`` is, int64."""
     ix = np.int64(column) // patch.ny
@@ -209,7 +209,7 @@ def _named(old, origin, column, column_start, listed, patch, whole):
     return listed[c] if c < listed.shape[0] else -1
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _at_edge(patch, column, inner):
     ix = column // patch.ny
     iy = column - ix * patch.ny + patch.near

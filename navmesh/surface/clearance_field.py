@@ -52,7 +52,7 @@ FIELD = BundleType(
 """What is needed to measure distances before there is a graph; names as in `NET`."""
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _list_of(net, cell):
     """The blockers that cell ``cell`` knows: from the first up to, not including, the last."""
     source = np.int64(net.source[cell])
@@ -61,7 +61,7 @@ def _list_of(net, cell):
     return np.int64(net.list_start[source]), np.int64(net.list_start[source + 1])
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _from_list(net, cell, px, py, least, x, y):
     """The least squared distance of p to the blockers that cell ``cell`` knows, where that is less than
     ``least``: (squared, the place on the blocker: x, y)."""
@@ -81,7 +81,7 @@ def _from_list(net, cell, px, py, least, x, y):
     return least, x, y
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _along_list(net, cell, px, py, ux, uy, stretch, gap, s, x, y):
     """The least distance of a line, ``stretch`` [m] long from p along the unit vector u, to the blockers in
     the list of cell ``cell``, where that is less than ``gap``: (distance, where on the line [m], the place
@@ -124,7 +124,7 @@ def _along_list(net, cell, px, py, ux, uy, stretch, gap, s, x, y):
     return gap, s, x, y
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _around(net, k, column, right, up):
     """Cell ``k`` of ``column``, those beside it in the directions ``right`` and ``up``, and the one between
     these; -1 for one that is not there, or has no list of blockers, or the same as one before."""
@@ -172,14 +172,14 @@ def stretch_gap(net, k, column, cx, cy, ax, ay, ux, uy, low, high, most):
     return gap, low + s, x, y
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def middle_of_column(net, column):
     """x and y of the centre of the square of ``column``."""
     ix = column // net.ny
     return (ix + 0.5) * net.cell, (column - ix * net.ny + 0.5) * net.cell
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def centre_of(net, k):
     """x and y of the centre of cell ``k``."""
     return middle_of_column(net, column_of(net, k))
@@ -191,7 +191,7 @@ def gap_at(net, k, x, y):
     return gap_in(net, k, column_of(net, k), x, y)
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def gap_in(net, k, column, x, y):
     """Distance [m] from (x, y), a point in cell ``k`` of ``column``, to the nearest place where walking ends,
     and that place."""
@@ -222,7 +222,7 @@ def cell_at(net, x, y, z):
     return best
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def same_place(net, k, other):
     """Whether a point that lies in cell ``k`` by one reckoning and in ``other`` by another is one place: on
     the border between squares, or on a corner of four, rounding decides, but they are linked."""
@@ -239,7 +239,7 @@ def same_place(net, k, other):
     return False
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def slope_at(net, k):
     """Slope of the floor in cell ``k``, dz/dx and dz/dy, in single precision."""
     slope_x, slope_y = gradient_of(net, k)
@@ -256,7 +256,7 @@ def floor_at(net, k, x, y):
     return level + np.float32(slope_x) * (x - cx) + np.float32(slope_y) * (y - cy)
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _leaves(cx, cy, room, ax, ay, ux, uy, s):
     """How far [m] from a the line along the unit vector u leaves the disc of radius ``room`` about c; -1
     where it is not in it at ``s``."""
@@ -267,7 +267,7 @@ def _leaves(cx, cy, room, ax, ay, ux, uy, s):
     return s - along + sqrt(along * along + spare) if spare >= 0.0 and room > 0.0 else -1.0
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _landing(column_start, label, column, node):
     """The cell of the column that a line inside a disc about a cell of ``node`` comes to, or -1 where that is
     not clear: the only one, or the one that the node owns, which is the only one on the disc's floor."""
@@ -280,7 +280,7 @@ def _landing(column_start, label, column, node):
     return landing
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def fetch_cell(net, k):
     """Ask for the memory that walking over cell ``k`` takes."""
     fetch(net.label, k)

@@ -34,13 +34,13 @@ def find_column(column_start, milestone, k):
     return low
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def about_column(net, k):
     """Where `column_of` looks first."""
     return np.int64(net.milestone[k >> _SHIFT]) + (k & (_SIDE - 1))
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def column_of(net, k):
     """The column of cell ``k``, int64; ``net`` has column_start and milestone."""
     return find_column(net.column_start, net.milestone, np.int64(k))

@@ -91,26 +91,26 @@ class FloorStore:
         return height, gradient
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def height_in(net, column, k):
     """Height [m] of the floor at the centre of cell ``k`` of ``column``."""
     return net.floor_height[k + net.floor_shift[column >> _SHIFT]]
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def height_of(net, k):
     """`height_in` of a cell whose column is yet to be looked up."""
     return height_in(net, column_of(net, k), k)
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def gradient_in(net, column, k):
     """Slope of the floor at the centre of cell ``k`` of ``column``, dz/dx and dz/dy."""
     slope = net.floor_slope[k + net.floor_shift[column >> _SHIFT]]
     return net.slopes[slope, 0], net.slopes[slope, 1]
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def gradient_of(net, k):
     """`gradient_in` of a cell whose column is yet to be looked up."""
     return gradient_in(net, column_of(net, k), k)
@@ -257,7 +257,7 @@ def _unpack(at, pool, pool_slope, slopes, column_start, height, gradient):
 _PRIME = np.int64(-7046029254386353131)  # of about 2^64 / 1.618: spreads what is multiplied by it
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _mixed(hash_, value):
     hash_ = (hash_ ^ value) * _PRIME
     return hash_ ^ (hash_ >> np.int64(29))

@@ -53,7 +53,7 @@ def _nearest_on(table, f, x, y):
     return least, at_x, at_y
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _is_beyond(table, f, x, y, reach):
     """Whether a triangle's bounds, seen from above, are more than ``reach`` from (x, y) along an axis."""
     reach += TOUCH

@@ -50,7 +50,7 @@ def came_from(net, c, column, turn):
         turn -= 1
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _over(net, c, column, way):
     """The cell that a link leads to; -2 where there is none."""
     other = over(net, c, column, way) if c >= 0 else np.int64(-2)
@@ -97,14 +97,14 @@ def recall(field, column_start, nx, nearest):
         nearest[c, 0], nearest[c, 1] = _settled(field, c, column_of(field, c), nearest[c, 0], nearest[c, 1])
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _take(nearest, c, n, dx, dy):
     """Put in what cell ``c`` took from cell ``n``."""
     nearest[c, 0] = nearest[n, 0] + dx if dx != 0.0 else nearest[n, 0]
     nearest[c, 1] = nearest[n, 1] + dy if dy != 0.0 else nearest[n, 1]
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _place_in(net, own, column):
     """The vector to the nearest place in list ``own`` from the centre of the cell that it is of, in
     ``column``; inf for list -1."""
@@ -114,7 +114,7 @@ def _place_in(net, own, column):
     return nearest_in_list(net.blocker, net.list_start[own], net.list_start[own + 1], x, y)
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _after(x, y, dx, dy, h):
     if dx != 0:
         x += dx * h

@@ -21,7 +21,7 @@ __all__ = ["half_width", "middle", "middle_beside", "widest_through"]
 _HALVINGS = 7
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _half_width(field, c):
     """`half_width` where `nearest` is kept."""
     vx, vy = field.nearest[c, 0], field.nearest[c, 1]
@@ -75,7 +75,7 @@ def half_width(field, c):
     return 0.5 * sqrt(least)
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _under(field, k, column, x, y):
     """The cell linked to cell ``k`` of ``column`` that (x, y), at most a cell away, is in, ``k`` where there
     is none; and its column."""

@@ -14,7 +14,7 @@ _SEEN = 0.02
 """[m]: a blocker this near to the way to a neighbour says why there is no link."""
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def put(rows, count, ax, ay, bx, by):
     """Put a segment behind the first ``count`` rows; returns their new number."""
     if (bx, by) < (ax, ay):
@@ -41,7 +41,7 @@ def part_in_square(ax, ay, bx, by, x, y, half):
     return first, last
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _is_at(row, x, y, within):
     """Whether (x, y) is ``within`` [m], along both axes together, of the segment ``row``."""
     ex, ey = row[2] - row[0], row[3] - row[1]

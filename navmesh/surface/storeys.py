@@ -25,7 +25,7 @@ def check_storeys(column_start: np.ndarray, name: str) -> None:
         )
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def over(net, k, column, way):
     """The cell that one walks to from cell ``k`` of ``column`` in direction ``way``, see
     `navmesh.surface.surface.DIRECTIONS`; -1 where walking ends. ``net`` has column_start, storey and ny."""
@@ -36,7 +36,7 @@ def over(net, k, column, way):
     return np.int64(net.column_start[column + step if way < 2 else column - step]) + storey
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def linked(net, k, way):
     """`over` of a cell whose column is yet to be looked up."""
     return over(net, k, column_of(net, k), way)

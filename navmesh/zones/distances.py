@@ -40,7 +40,7 @@ def touches(outline, ax, ay, bx, by):
     return False
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _square(px, py, ax, ay, bx, by):
     """Squared distance of p from the line from a to b."""
     ex, ey = bx - ax, by - ay

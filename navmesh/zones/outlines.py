@@ -118,7 +118,7 @@ def _to_outline(outline, x, y):
     return dx, dy
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _is_cut(outline, low, high, cells, k, other, x, y, px, py):
     """Whether the outline cuts the link from cell ``k``, at (x, y), to the ``other``, at p."""
     if not (low <= height_of(cells, k) <= high or low <= height_of(cells, other) <= high):

@@ -12,7 +12,7 @@ __all__ = ["count_reached", "join_regions", "settle_doors"]
 _SLACK = 0.01  # [m]: ends of portals are where a body still fits, to some millimetres
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _reaches(portal, door, outline, box, room):
     """Whether the ends of a portal, or what bounds it there, may be what a zone makes them. ``box``: the
     least x and y and the greatest of what is within ``room`` [m] of its outline."""
@@ -116,7 +116,7 @@ def _opens(net, i, j, width, border, gate, radius):
     return is_open_to(net, j, i, width, border[::-1], gate, radius)
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _root(region, part):
     while region[part] != part:
         region[part] = region[region[part]]

@@ -166,7 +166,7 @@ def turn(switches, net, zone, blocked):
     _join(switches, net, zone)
 
 
-@kernel(error_model="numpy", inline="always")
+@kernel(error_model="numpy", forceinline=True)
 def _settle(switches, known):
     """Put in place how wide it is at a cell now."""
     x, y = switches.known_nearest[known, 0], switches.known_nearest[known, 1]
@@ -372,14 +372,14 @@ def _join(switches, net, zone):
         _measure(switches, net, zone, np.sort(missed[:count]))
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _borders(switches, user):
     """How many rows `_border` has: a row may come twice."""
     seams = switches.seam_count[user] if switches.broken[user] > 0 else 0
     return switches.rim_start[user + 1] - switches.rim_start[user] + seams
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _border(switches, user, i):
     """The i-th row of a disc that may be beside another piece or disc."""
     rim = switches.rim_start[user + 1] - switches.rim_start[user]
@@ -388,7 +388,7 @@ def _border(switches, user, i):
     return switches.seam[switches.row_start[user] + i - rim]
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _sign_between(switches, a, b):
     return sign_of(switches, a) * 31 + sign_of(switches, b)
 
@@ -467,7 +467,7 @@ def _measure(switches, net, zone, wanted):
         at = end
 
 
-@kernel(inline="always")
+@kernel(forceinline=True)
 def _comes_before(pair, i, j):
     return pair[i, 0] < pair[j, 0] or (pair[i, 0] == pair[j, 0] and pair[i, 1] < pair[j, 1])
 

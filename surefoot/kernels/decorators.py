@@ -36,6 +36,7 @@ def allocating_kernel(function: Callable | None = None, **options: Any) -> Any:
 
 def _kernel(function: Callable | None, options: dict[str, Any]) -> Any:
     options["no_cfunc_wrapper"] = True  # nobody takes the address of a kernel
+    options.setdefault("forceinline", False)  # Numba would take it over from the first caller
 
     def decorate(function: Callable) -> Any:
         made = numba.njit(**options)(function)

@@ -25,12 +25,10 @@ def course_on(trail: Trail, state: NDArray[np.float64], body: Body) -> Course:
     along = np.arange(arc, max(min(trail.length, far), arc + SPACING) + 1e-9, SPACING)
     rows = np.minimum(along / trail.step, len(trail.rows) - 1.0)
     known = np.arange(len(trail.rows))
-    ahead = np.empty((len(rows), 4))
-    for k, column in enumerate((at.PX, at.PY, at.PZ, at.PSPEED)):
-        ahead[:, k] = np.interp(rows, known, trail.rows[:, column])
+    points = np.stack([np.interp(rows, known, trail.rows[:, c]) for c in (at.PX, at.PY, at.PZ)], axis=1)
     return Course(
-        points=ahead[:, :3],
-        speeds=np.minimum(ahead[:, 3], fastest),
+        points=points,
+        speeds=np.minimum(np.interp(rows, known, trail.rows[:, at.PSPEED]), fastest),
         speed=float(state[at.SPEED]),
         pace=float(state[at.PACE]),
         length=head_length(body),

@@ -98,8 +98,8 @@ def trail_place(trail: Trail, body: Body, arc: float) -> NDArray[np.float64]:
     """(5,) x, y, z, yaw, bend of a body whose root is at an arc length [m]."""
     spine = body.spine
     place = on_trail(
-        trail.rows, 0, len(trail.rows), trail.step, arc, arc + spine.length, spine.bones, spine.bone_length,
-        spine.flex, math.radians(spine.max_bend_deg),
+        trail.rows, 0, len(trail.rows), trail.step, arc, arc + spine.length, float(spine.bones),
+        spine.bone_length, spine.flex, math.radians(spine.max_bend_deg),
     )  # fmt: skip
     return np.array(place[:5])
 
@@ -117,7 +117,7 @@ def _densified(rows: NDArray[np.float64], body: Body) -> NDArray[np.float64]:
 def fronts(places: NDArray[np.float64], body: Body) -> NDArray[np.float64]:
     """(k, 2) [m] the front feet's midpoint at ``places`` (k, 5)."""
     out = np.empty((len(places), 2))
-    _write_fronts(np.ascontiguousarray(places), body.spine.bones, body.spine.bone_length, out)
+    _write_fronts(np.ascontiguousarray(places), float(body.spine.bones), body.spine.bone_length, out)
     return out
 
 

@@ -139,7 +139,7 @@ class Herd:
         st[at.HABITS : at.HABITS + 4] = habits(seed, place, yaw)
         st[at.CLOCK], st[at.BREATH], st[at.CHORD] = st[at.HABITS], st[at.HABITS + 1], 1.0
         st[at.FRONT_X], st[at.FRONT_Y] = front_of(
-            place[0], place[1], yaw, 0.0, body.spine.bones, body.spine.bone_length
+            place[0], place[1], yaw, 0.0, float(body.spine.bones), body.spine.bone_length
         )
         st[at.CHEST] = yaw
         self._stand(index)

@@ -39,7 +39,7 @@ class Place:
 
     def front(self, body: Body) -> tuple[float, float]:
         """[m] midpoint of the front feet."""
-        x, y = front_of(self.x, self.y, self.yaw, self.bend, body.spine.bones, body.spine.bone_length)
+        x, y = front_of(self.x, self.y, self.yaw, self.bend, float(body.spine.bones), body.spine.bone_length)
         return float(x), float(y)
 
     def chest(self, body: Body) -> float:
@@ -102,7 +102,7 @@ def out_of_flex(body: Body, place: Place, facing: float) -> Script:
     yaw = place.yaw + share * turn
     ahead = np.array(
         [
-            front_of(0.0, 0.0, a, b, body.spine.bones, body.spine.bone_length)
+            front_of(0.0, 0.0, a, b, float(body.spine.bones), body.spine.bone_length)
             for a, b in zip(yaw, bend, strict=True)
         ]
     )

@@ -91,8 +91,8 @@ def planted(
     footing = footings(motions, gaits, speeds)
     strides = strides_ahead(motions)[gaits] * stride_of(motions, gaits, speeds)
     struck = (phases[:, None] - footing[:, :, STRIKES]) % 1.0 if since is None else np.asarray(since)
-    own, at = skeleton(LEVELS[level]), np.asarray(places, np.float64)
-    steps = np.asarray(footfalls, np.float64)
+    own, at = skeleton(LEVELS[level]), np.ascontiguousarray(places, np.float64)
+    steps = np.ascontiguousarray(footfalls, np.float64)
     channels, roots = sample[0].copy(), placed_roots(sample[1], at)
     bodies = posed(own, *sample)
     feet = np.stack([bodies[:, own.bodies.index(name)] for name in FEET], axis=1)
@@ -315,9 +315,9 @@ def _bend_leg(columns, body, foot, side, channels, room):
     for _ in range(1 if rolls else (_ROUNDS if turns else _PLAIN_ROUNDS)):
         _ankle(point, axes, end, ankle)
         if not turns:
-            solve_plain_leg(pelvis, hip, axes, ankle, 2 * side - 1, angles)
+            solve_plain_leg(pelvis, hip, axes, ankle, 2.0 * side - 1.0, angles)
             continue
-        solve_leg(pelvis, hip, axes, ankle, 2 * side - 1, angles)
+        solve_leg(pelvis, hip, axes, ankle, 2.0 * side - 1.0, angles)
         if not rolls:
             # an ankle that cannot turn in or out leaves the foot as the shank has it
             roll = (2 * side - 1) * angles[5]

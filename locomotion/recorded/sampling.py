@@ -54,8 +54,8 @@ def sample_gait(
     (n,) of the cycle: their channels (n, c), and their roots (n, 7) as seen from the point of the ground on
     which they go along evenly, facing ahead."""
     frames = motions.levels[level]
-    numbers, fast = np.asarray(gaits, np.int64), np.asarray(speeds, np.float64)
-    shares = np.asarray(phases, np.float64)
+    numbers = np.ascontiguousarray(gaits, np.int64)
+    fast, shares = (np.ascontiguousarray(each, np.float64) for each in (speeds, phases))
     channels, roots = np.empty((len(fast), frames.channels.shape[1])), np.empty((len(fast), 7))
     gait_tables = (motions.gait_first, motions.cycles, motions.speeds, motions.rests)
     read_gait(_tables(frames), *gait_tables, numbers, fast, shares, (channels, roots))

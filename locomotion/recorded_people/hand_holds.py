@@ -41,7 +41,7 @@ def holds_of(
     edge, height, depth = obstacle
     found = []
     for side in (-1, 1):
-        hand = np.array([hand_place(pose, side) for pose in poses])
+        hand = np.array([hand_place(pose, float(side)) for pose in poses])
         speed = np.linalg.norm(np.gradient(hand, times, axis=0), axis=1)
         rests = (speed < _SLOW) & (np.abs(hand[:, 2] - height) < _NEAR)
         rests &= (hand[:, 0] > edge - _BESIDE) & (hand[:, 0] < edge + depth + _BESIDE)
@@ -53,7 +53,7 @@ def holds_of(
 
 def hand_of(pose: NDArray[np.float64], side: int, size: float) -> NDArray[np.float64]:
     """(3,) [m] where the hand of ``side`` of a figure in ``pose`` (46,) is."""
-    return pose[:3] + size * (hand_place(pose, side) - pose[:3])
+    return pose[:3] + size * (hand_place(pose, float(side)) - pose[:3])
 
 
 def with_hand_at(
@@ -65,17 +65,17 @@ def with_hand_at(
     target = point + np.array([0.0, 0.0, size * HAND_RADIUS])
     target = pose[:3] + (target - pose[:3]) / size  # as one of the usual size would have it, about its pelvis
     first = 7 + ARM_START[(1 + side) // 2]
-    arm, solved, shoulder = slice(first, first + 4), pose.copy(), shoulder_frame(pose, side)[0]
+    arm, solved, shoulder = slice(first, first + 4), pose.copy(), shoulder_frame(pose, float(side))[0]
     away = float(np.linalg.norm(target - shoulder))
     nearer = (target - shoulder) * max(away - _LONGEST, 0.0) / away
     solved[:3] += nearer
     for _ in range(_ROUNDS):
-        hand = hand_place(solved, side)
+        hand = hand_place(solved, float(side))
         slope = np.empty((3, 4))
         for k in range(4):
             probe = solved.copy()
             probe[first + k] += _PROBE
-            slope[:, k] = (hand_place(probe, side) - hand) / _PROBE
+            slope[:, k] = (hand_place(probe, float(side)) - hand) / _PROBE
         step = slope.T @ np.linalg.solve(slope @ slope.T + _DAMPING * np.eye(3), target - hand)
         solved[arm] += step.clip(-_STEP, _STEP)
         solved[first + 3] = max(solved[first + 3], _BENT)

@@ -261,7 +261,8 @@ class RecordedPeople:
         """(n, 20, 7) places [m] and quaternions (w, x, y, z) of the bodies of some figures, in the order of
         the person's model, ``ahead`` [s] of now."""
         out, apart = np.empty((len(indices), 20, 7)), np.empty(len(indices), np.bool_)
-        draw_figures(self._figures, indices, self._rows, self.crowd.rows, (ahead, self.dt), out, apart)
+        these = np.ascontiguousarray(indices)
+        draw_figures(self._figures, these, self._rows, self.crowd.rows, (ahead, self.dt), out, apart)
         of = self._apart(indices, apart)
         if of:
             qpos, bones = self.qpos(indices[of], ahead), skeleton(LEVELS[0])
@@ -277,7 +278,7 @@ class RecordedPeople:
         turn. After a time long past or -inf all have."""
         after, due = np.empty(len(indices)), np.empty(len(indices), np.bool_)
         after[:] = since
-        come_due(_RATES, self._rows, self.turns, indices, after, now, due)
+        come_due(_RATES, self._rows, self.turns, np.ascontiguousarray(indices), after, now, due)
         return due
 
     def _apart(self, indices: NDArray[np.int64], may_be: NDArray[np.bool_]) -> list[int]:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from locomotion.body.anatomy import TRUNK_JOINTS
 from locomotion.body.hand_hold import HAND_POINT
-from locomotion.body.observed import COM, COM_VELOCITY, CONTACT, FEET, LEFT_FOOT, RIGHT_FOOT
+from locomotion.body.observed import COM, COM_VELOCITY, CONTACT, FEET, LEFT_FOOT, OBSERVED_SIZE, RIGHT_FOOT
 from locomotion.body.person import CONTROL_DT, PersonIndex
 from locomotion.recovery.layout import (
     ANCHORS,
@@ -49,11 +49,11 @@ class Parts(NamedTuple):
 
 @allocating_kernel
 def _observe(
-    memory, observed, places, frames, coms, parts, anchors, axes, bias, ncon, geoms, addresses, forces
+    memory, fresh, observed, places, frames, coms, parts, anchors, axes, bias, ncon, geoms, addresses, forces
 ):  # fmt: skip
     for i in range(3):
         c = coms[1, i]
-        before = c if observed is None else memory[SEEN_COM.start + i]
+        before = c if fresh else memory[SEEN_COM.start + i]
         memory[SEEN_VELOCITY.start + i] = (c - before) / CONTROL_DT
         memory[SEEN_COM.start + i] = c
         memory[SEEN_BASE.start + i] = places[1, i]
@@ -84,10 +84,9 @@ def _observe(
             memory[SEEN_FORCES.start + part] += total
         elif part == -1:
             memory[SEEN_TRUNK] += total
-    if observed is not None:
-        observed[COM], observed[COM_VELOCITY] = memory[SEEN_COM], memory[SEEN_VELOCITY]
-        observed[_RIGHT_FOOT], observed[_LEFT_FOOT] = places[parts.ends[2]], places[parts.ends[3]]
-        observed[CONTACT] = memory[_FEET_FORCES]
+    observed[COM], observed[COM_VELOCITY] = memory[SEEN_COM], memory[SEEN_VELOCITY]
+    observed[_RIGHT_FOOT], observed[_LEFT_FOOT] = places[parts.ends[2]], places[parts.ends[3]]
+    observed[CONTACT] = memory[_FEET_FORCES]
 
 
 def parts_of(index: PersonIndex, model: mujoco.MjModel) -> Parts:
@@ -108,8 +107,12 @@ def observe_scramble(
     """Read what the controller needs of ``data`` into ``memory``, and into ``observed``
     (`locomotion.body.observed`) what everybody asks for; without it: at a pose that was put there, at
     rest."""
-    contact = data.contact
+    # one contact is contiguous, several are not: for both the same kernel
+    pairs, addresses = map(np.ascontiguousarray, (data.contact.geom, data.contact.efc_address))
+    fresh = observed is None
+    if observed is None:
+        observed = np.empty(OBSERVED_SIZE)
     _observe(
-        memory, observed, data.xpos, data.xmat, data.subtree_com, parts, data.xanchor, data.xaxis,
-        data.qfrc_bias, data.ncon, contact.geom, contact.efc_address, data.efc_force,
+        memory, fresh, observed, data.xpos, data.xmat, data.subtree_com, parts, data.xanchor, data.xaxis,
+        data.qfrc_bias, data.ncon, pairs, addresses, data.efc_force,
     )  # fmt: skip

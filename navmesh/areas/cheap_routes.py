@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from navmesh.areas.areas import Areas
 from navmesh.areas.kernel_arrays import make_trip
 from navmesh.areas.line_costs import area_at, price
 from navmesh.areas.pricing import Priced
@@ -39,7 +40,8 @@ _START, _GOAL, _STATUS = 8, 9, 10  # places in trip.numbers: the cells, and the 
 
 @kernel(error_model="numpy")
 def _is_allowed(net, road, k, x, y):
-    area = area_at(net, road, k, x, y)
+    areas = Areas(road.area, road.row, road.part)
+    area = area_at(net, areas, k, x, y)
     return area >= 0 and road.factor[area] < np.inf
 
 
@@ -48,12 +50,13 @@ def _is_reached(net, road, trip, radius, k, x, y):
     """Whether the search that has ended came to where (x, y) in cell ``k`` can be got to."""
     node = np.int64(net.label[k])
     stamp = trip.numbers[0]
+    areas = Areas(road.area, road.row, road.part)
     for at in range(road.group_start[node], road.group_start[node + 1]):
         stop = road.group[at]
         if trip.stamp[stop] != stamp:
             continue
         px, py, cell = road.x[stop], road.y[stop], np.int64(road.stop_cell[stop])
-        if price(net, road, road.part, road.factor, cell, px, py, x, y, k, 1e300) < np.inf and leg_fits(
+        if price(net, areas, road.factor, cell, px, py, x, y, k, 1e300) < np.inf and leg_fits(
             net, node, cell, px, py, x, y, k, radius
         ):
             return True
@@ -202,11 +205,12 @@ def _answer(net, doors, road, trip, scratch, origin, sx, sy, sz, gx, gy, gz, rea
 @allocating_kernel(error_model="numpy", nogil=True)
 def _line_price(net, road, k, points):
     """What the line through ``points`` (n, 3), relative to the origin, from cell ``k`` on costs."""
+    areas = Areas(road.area, road.row, road.part)
     total = 0.0
     for i in range(1, points.shape[0]):
         ax, ay, bx, by = points[i - 1, 0], points[i - 1, 1], points[i, 0], points[i, 1]
         end = walk(net, k, ax, ay, bx, by, 0.0, True)[1]
-        total += price(net, road, road.part, road.factor, k, ax, ay, bx, by, end, 1e300)
+        total += price(net, areas, road.factor, k, ax, ay, bx, by, end, 1e300)
         k = end
     return total
 

@@ -77,12 +77,12 @@ def _in_parts(part, row, weight, x, y, dx, dy, length):
 
 
 @kernel(error_model="numpy")
-def price(net, areas, part, weight, k, ax, ay, bx, by, target, most):
+def price(net, areas, weight, k, ax, ay, bx, by, target, most):
     """What the straight line from a, in cell ``k``, to b in cell ``target`` costs [m], if a metre in each
     area costs its ``weight``; inf where it is more than ``most``, or the line does not lead there.
 
-    ``areas`` has the arrays of `navmesh.areas.areas.Areas`; ``part`` is one of these, or what `dearest` makes
-    of it.
+    ``areas`` is an `Areas`, with its parts or what `dearest` makes of them. Always that: of a bundle with the
+    same arrays Numba would compile another kernel.
     """
     h = net.cell
     dx, dy = bx - ax, by - ay
@@ -101,7 +101,7 @@ def price(net, areas, part, weight, k, ax, ay, bx, by, target, most):
     step_x = h / abs(ux) if ux != 0.0 else 1e300
     step_y = h / abs(uy) if uy != 0.0 else 1e300
     scale = PARTS / h
-    area, row = areas.area, areas.row
+    area, row, part = areas
     s = total = 0.0
     while True:
         leave = min(next_x, next_y, length)

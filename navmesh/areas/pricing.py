@@ -56,7 +56,7 @@ def price_of_lead(net, areas, factor, scratch, first, count):
     total = 0.0
     for i in range(first + 1, count):
         total += price(
-            net, areas, areas.part, factor, np.int64(scratch.cells[i - 1]), scratch.points[i - 1, 0],
+            net, areas, factor, np.int64(scratch.cells[i - 1]), scratch.points[i - 1, 0],
             scratch.points[i - 1, 1], scratch.points[i, 0], scratch.points[i, 1], np.int64(scratch.cells[i]),
             1e300,
         )  # fmt: skip
@@ -74,7 +74,6 @@ def _tolls(net, doors, scratch, areas, factor, place, cell, road):
             toll[i] = price(
                 net,
                 areas,
-                areas.part,
                 factor,
                 k,
                 place[u, 0],

@@ -5,6 +5,7 @@ from math import sqrt
 
 import numpy as np
 
+from navmesh.areas.areas import Areas
 from navmesh.areas.kernel_arrays import STRAIGHT
 from navmesh.areas.line_costs import price
 from navmesh.areas.pricing import price_of_lead
@@ -53,7 +54,8 @@ def _chain(net, road, trip, start_cell, goal_cell):
 def _fitting(net, road, k, ax, ay, bx, by, target, radius, most):
     """What the straight line from a, in cell ``k``, to b costs; inf where it is not less than ``most``, or a
     body of ``radius`` does not fit on it."""
-    cost = price(net, road, road.dear, road.factor, k, ax, ay, bx, by, target, most)
+    dear = Areas(road.area, road.row, road.dear)
+    cost = price(net, dear, road.factor, k, ax, ay, bx, by, target, most)
     if cost >= most:
         return np.inf
     reached, cell = walk(net, k, ax, ay, bx, by, radius, False)[:2]
@@ -153,10 +155,11 @@ def _ease(net, road, trip, first, count, radius):
     """Shorten and move the walked part point[first:count]; returns the new count, with what follows left
     where it is."""
     point, cell, cost = trip.point, trip.point_cell, trip.point_cost
+    dear = Areas(road.area, road.row, road.dear)
     for i in range(first + 1, count):
         if trip.point_kind[i] == STRAIGHT:
             cost[i] = price(
-                net, road, road.dear, road.factor, np.int64(cell[i - 1]), point[i - 1, 0], point[i - 1, 1],
+                net, dear, road.factor, np.int64(cell[i - 1]), point[i - 1, 0], point[i - 1, 1],
                 point[i, 0], point[i, 1], np.int64(cell[i]), 1e300,
             )  # fmt: skip
     count = _shorten(net, road, trip, first, count, radius)
@@ -170,7 +173,7 @@ def line_of(net, doors, road, trip, scratch, start_cell, goal_cell):
     (l, 2), cost [m])."""
     radius = doors.radius
     count = _chain(net, road, trip, start_cell, goal_cell)
-    points, cells = scratch.points, scratch.cells
+    points, cells, areas = scratch.points, scratch.cells, Areas(road.area, road.row, road.part)
     nodes, leaps = np.empty(count + 1, np.int32), np.empty((count, 2), np.int32)
     passed = used = 0
     for i in range(count):
@@ -197,14 +200,14 @@ def line_of(net, doors, road, trip, scratch, start_cell, goal_cell):
             if trip.point_kind[i] == STRAIGHT:
                 points[corners, 0], points[corners, 1], cells[corners] = x, y, k
                 corners += 1
-                total += price_of_lead(net, road, road.factor, scratch, corners - 2, corners)
+                total += price_of_lead(net, areas, road.factor, scratch, corners - 2, corners)
                 continue
             begun = corners - 1
             scratch.nodes[0] = trip.point_node[i]
             corners, state = mend(net, doors, scratch, begun, corners, x, y, k, 0, 1, CELLS)
             if state != FITS:
                 return False, points[:0].copy(), nodes[:0].copy(), leaps[:0].copy(), 0.0
-            total += price_of_lead(net, road, road.factor, scratch, begun, corners)
+            total += price_of_lead(net, areas, road.factor, scratch, begun, corners)
         if last < count:
             leaps[used, 0] = doors.leap_id[trip.point_kind[last]]
             leaps[used, 1] = corners - 1

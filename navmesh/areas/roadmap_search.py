@@ -10,6 +10,7 @@ from math import sqrt
 
 import numpy as np
 
+from navmesh.areas.areas import Areas
 from navmesh.areas.kernel_arrays import BENT, LANDMARKS, STRAIGHT
 from navmesh.areas.line_costs import price
 from navmesh.areas.roadmap import leg_fits, sector_of
@@ -46,7 +47,8 @@ def _rest(road, trip, stop):
 def _toll(net, road, radius, node, k, ax, ay, bx, by, target, straight):
     """What a leg between a stop and an end in ``node`` costs; inf where it cannot be gone. Not ``straight``:
     at a guess, for legs on which a body does not fit."""
-    cost = price(net, road, road.part, road.factor, k, ax, ay, bx, by, target, 1e300)
+    areas = Areas(road.area, road.row, road.part)
+    cost = price(net, areas, road.factor, k, ax, ay, bx, by, target, 1e300)
     if not straight:
         far = sqrt((bx - ax) ** 2 + (by - ay) ** 2)
         return _APART * (cost if cost < np.inf else far * road.factor[max(road.area[k], road.area[target])])

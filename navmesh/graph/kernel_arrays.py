@@ -1,24 +1,25 @@
 """The arrays that the search kernels read, bundled so that a call passes three arguments, not fifty.
 
-`NET` is the graph with its field of clearances, `DOORS` is what one body radius makes of it, and `SCRATCH` is
-the memory of one search at a time. What is read together lies together: a door is one line of the cache,
-and what a search knows of a node half of one. All coordinates are relative to the surface's origin.
+`navmesh.surface.net.NET` is the graph with its field of clearances, `DOORS` is what one body radius makes of
+it, and `SCRATCH` is the memory of one search at a time. What is read together lies together: a door is one
+line of the cache, and what a search knows of a node half of one. All coordinates are relative to the
+surface's origin.
 """
 
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba import float64, int32, int64, uint8
+from numba import float64, int32, int64
 
 from navmesh.routes.graph_search import LABELS
+from navmesh.surface.net import NODE
 from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
 
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
 
-__all__ = ["DOORS", "NET", "SCRATCH", "door_rows", "make_doors", "make_scratch", "net_of"]
+__all__ = ["DOORS", "SCRATCH", "door_rows", "make_doors", "make_scratch", "net_of"]
 
-_NODE = np.dtype([("position", "f8", 3), ("node_radius", "f8")])
 _DOOR = np.dtype([("portal", "f8", 6), ("portal_cell", "i4", 2), ("target", "i4"), ("", "i4")])
 _LABEL = np.dtype(
     [
@@ -27,40 +28,6 @@ _LABEL = np.dtype(
     ]
 )  # fmt: skip
 _SEEN = np.dtype([("stamp", "i8"), ("label", "i4", LABELS), ("label_total", "f8", LABELS)])
-
-NET = BundleType(
-    cell=float64,
-    nx=int64,
-    ny=int64,
-    column_start=int32[::1],
-    milestone=int32[::1],
-    floor_shift=int32[::1],
-    floor_height=float64[::1],
-    floor_slope=int32[::1],
-    slopes=float64[:, ::1],
-    storey=uint8[:, ::1],
-    clearance=float64[::1],
-    choice=uint8[::1],
-    nearest=float64[:, ::1],
-    source=int32[::1],
-    list_cell=int32[::1],
-    list_start=int32[::1],
-    blocker=float64[:, ::1],
-    label=int32[::1],
-    nodes=rows(_NODE),
-    node_cell=int32[::1],
-    edge_start=int32[::1],
-    edge_target=int32[::1],
-)
-"""The surface and the graph.
-
-cell: side of a grid square [m]; nx, ny: columns. The arrays of `Surface` themselves: column_start
-(nx*ny + 1,), milestone (⌈n / 32⌉ + 1,), see `navmesh.surface.columns`, and, for each cell, storey (4),
-clearance, choice, source; list_cell (l,), list_start (l + 1,), blocker (k, 4); nearest (n, 2) if zones change
-it, else (0, 2), see `navmesh.surface.recall.nearest_of`. Height and slope of a cell are found by floor_shift,
-floor_height, floor_slope and slopes, see `navmesh.surface.floor_store.height_of`. Of `NodeGraph`: label of
-each cell; position (3), node_radius and node_cell of each node; edge_start (m + 1,), edge_target (e,).
-"""
 
 _NO_SLOTS = np.empty(0, np.int32)
 
@@ -168,7 +135,7 @@ def _table(dtype: np.dtype, **columns: np.ndarray) -> np.ndarray:
 
 
 def net_of(graph: "NodeGraph") -> Any:
-    """The graph's `NET`, made once."""
+    """The graph's `navmesh.surface.net.NET`, made once."""
     net = graph.cache.get("net")
     if net is None:
         net = graph.cache["net"] = _net(graph)
@@ -177,27 +144,13 @@ def net_of(graph: "NodeGraph") -> Any:
 
 def _net(graph: "NodeGraph") -> Any:
     surface = graph.surface
-    return Bundle(
-        NET,
-        cell=surface.resolution,
-        nx=surface.shape[0],
-        ny=surface.shape[1],
-        column_start=surface.column_start,
-        milestone=surface.milestone,
+    return surface.net(
         floor_shift=surface.floor.shift(surface.column_start),
         floor_height=surface.floor.height,
         floor_slope=surface.floor.slope,
         slopes=surface.floor.slopes,
-        storey=surface.storey,
-        clearance=surface.clearance,
-        choice=surface.choice,
-        nearest=surface.kept_nearest,
-        source=surface.source,
-        list_cell=surface.list_cell,
-        list_start=surface.list_start,
-        blocker=surface.blocker,
         label=graph.label,
-        nodes=_table(_NODE, position=graph.positions - surface.origin, node_radius=graph.radii),
+        nodes=_table(NODE, position=graph.positions - surface.origin, node_radius=graph.radii),
         node_cell=graph.node_cell,
         edge_start=graph.edge_start,
         edge_target=graph.edge_target,

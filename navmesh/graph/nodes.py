@@ -98,7 +98,7 @@ def select_nodes(order, field, whole, where, least, given_cell, given_place):
     """Greedy cover by maximal discs, (almost) largest first.
 
     ``order`` (n,) int32: cells by falling clearance (`order_by_clearance`); ``field`` is the
-    `navmesh.surface.clearance_field.FIELD` of all, ``whole``, or that of a part of its cells, ``where`` (n,)
+    `navmesh.surface.net.NET` of all, ``whole``, or that of a part of its cells, ``where`` (n,)
     int32, by rising number. A cell with at least ``least`` clearance that no disc as wide as itself covers
     becomes the place of one: its centre or, between opposite sides, the middle of the passage. At -1 - i in
     the order it is the turn of a node that is there anyway, in ``given_cell[i]`` at ``given_place[i]``.

@@ -79,7 +79,9 @@ def _renew(
                 if at < last and old_target[at] == was[j]:
                     door[edge] = at
                     count += 1
-            elif i < j and is_open_to(net, i, j, edge_width[edge], edge_cells[edge], edge_gate[edge], radius):
+            elif i < j and is_open_to(
+                net, i, j, edge_width[edge], edge_cells[edge, 0], edge_cells[edge, 1], edge_gate[edge], radius
+            ):
                 door[edge] = -2
                 for back in range(net.edge_start[j], net.edge_start[j + 1]):
                     if net.edge_target[back] == i:
@@ -94,6 +96,7 @@ def _renew(
     start, target = np.zeros(nodes + 1, np.int32), np.empty(count, np.int32)
     portal, cells = np.empty((count, 6)), np.empty((count, 2), np.int32)
     lens, block = np.empty((count, 2)), np.empty((count, 4))
+    rows = portal[:, :], cells[:, :], lens[:, :], block[:, :]  # as in `open_portals`
     count = 0
     for i in range(nodes):
         for edge in range(net.edge_start[i], net.edge_start[i + 1]):
@@ -102,9 +105,7 @@ def _renew(
                 continue
             target[count] = j
             if at == -2:
-                fill_portal(
-                    net, i, j, edge_cells[edge], edge_gate[edge], radius, count, portal, cells, lens, block
-                )
+                fill_portal(net, i, j, edge_cells[edge], edge_gate[edge], radius, count, *rows)
             else:
                 portal[count], lens[count], block[count] = old_portal[at], old_lens[at], old_block[at]
                 for side in range(2):

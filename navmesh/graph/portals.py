@@ -120,9 +120,9 @@ def _gets_through(net, k, ax, ay, bx, by, radius):
 
 
 @kernel
-def is_open_to(net, i, j, width, pair, gate, radius):
+def is_open_to(net, i, j, width, first, second, gate, radius):
     """Whether a body of ``radius`` gets from node i through the gate to node j, where the ``width`` of the
-    edge between them leaves that open."""
+    edge between them leaves that open; ``first``, ``second``: the cells of its border on either side."""
     if width < radius:
         return False
     x, y = net.position[i, 0], net.position[i, 1]
@@ -132,14 +132,14 @@ def is_open_to(net, i, j, width, pair, gate, radius):
         return True
     if (gate[0] == x and gate[1] == y) or (gate[0] == px and gate[1] == py):
         return True
-    cx, cy = centre_of(net, pair[0])
-    k = walk(net, np.int64(pair[0]), cx, cy, gate[0], gate[1], 0.0, True)[1]
+    cx, cy = centre_of(net, first)
+    k = walk(net, np.int64(first), cx, cy, gate[0], gate[1], 0.0, True)[1]
     for side in range(2):
         if side == 1:
             x, y = px, py
         if _gets_through(net, k, gate[0], gate[1], x, y, radius):
             continue
-        beside, bx, by, gap = middle_beside(net, pair[side])
+        beside, bx, by, gap = middle_beside(net, second if side == 1 else first)
         if gap < radius or not (
             _gets_through(net, k, gate[0], gate[1], bx, by, radius)
             and _gets_through(net, beside, bx, by, x, y, radius)
@@ -187,8 +187,9 @@ def open_portals(net, edge_width, edge_cells, edge_gate, radius):
             j = net.edge_target[edge]
             if i < j:
                 is_open[edge] = is_open_to(
-                    net, i, j, edge_width[edge], edge_cells[edge], edge_gate[edge], radius
-                )
+                    net, i, j, edge_width[edge], edge_cells[edge, 0], edge_cells[edge, 1], edge_gate[edge],
+                    radius,
+                )  # fmt: skip
                 for back in range(net.edge_start[j], net.edge_start[j + 1]):
                     if net.edge_target[back] == i:
                         is_open[back] = is_open[edge]
@@ -199,6 +200,8 @@ def open_portals(net, edge_width, edge_cells, edge_gate, radius):
     cells = np.empty((count, 2), np.int32)
     lens = np.empty((count, 2))
     block = np.empty((count, 4))
+    # as parts of wider arrays, which they are where there are zones: else Numba compiles another kernel
+    rows = portal[:, :], cells[:, :], lens[:, :], block[:, :]
     count = 0
     for i in range(nodes):
         for edge in range(net.edge_start[i], net.edge_start[i + 1]):
@@ -206,9 +209,7 @@ def open_portals(net, edge_width, edge_cells, edge_gate, radius):
                 continue
             j = net.edge_target[edge]
             target[count] = j
-            fill_portal(
-                net, i, j, edge_cells[edge], edge_gate[edge], radius, count, portal, cells, lens, block
-            )
+            fill_portal(net, i, j, edge_cells[edge], edge_gate[edge], radius, count, *rows)
             count += 1
         start[i + 1] = count
     return start, target, portal, cells, lens, block

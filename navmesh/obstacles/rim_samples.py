@@ -70,7 +70,7 @@ def renew_rim_samples(
     wide = changed + np.array([[-4.0 * WELD], [4.0 * WELD]])
     faces = terrain.faces[_touched(vertices, terrain.faces, wide)]
     used, corners = np.unique(faces, return_inverse=True)
-    found = find_rims(vertices[used], corners.reshape(-1, 3), walking.max_slope)
+    found = find_rims(vertices[used], corners.reshape(-1, 3).astype(np.int32), walking.max_slope)
     near = changed + np.array([[-2.0 * WELD], [2.0 * WELD]])
     kept, fresh = np.flatnonzero(~_touching(old.rims, near)), np.flatnonzero(_touching(found, near))
     start = np.concatenate([old.rims.start[kept], found.start[fresh]])

@@ -37,7 +37,7 @@ class Rims:
 
 
 def find_rims(vertices: np.ndarray, faces: np.ndarray, max_slope: float) -> Rims:
-    """The rims of a mesh: ``vertices`` (v, 3) float64 [m], ``faces`` (f, 3) int, ``max_slope`` [rad].
+    """The rims of a mesh: ``vertices`` (v, 3) float64 [m], ``faces`` (f, 3) int32, ``max_slope`` [rad].
 
     Both directions of a ridge are returned. Coincident rims (double faces) are returned once.
     Candidates only: whether there is a fall and how deep is for the caller to measure, since floors that

@@ -20,11 +20,12 @@ from navmesh.areas.areas import checked_costs
 from navmesh.areas.cheap_routes import AreaSearch, are_plain, priced_route
 from navmesh.areas.pricing import Priced, priced_of
 from navmesh.errors import NavmeshError
-from navmesh.graph.kernel_arrays import DOORS, NET, SCRATCH, make_scratch, net_of
+from navmesh.graph.kernel_arrays import DOORS, SCRATCH, make_scratch, net_of
 from navmesh.graph.open_to_body import checked_radius, doors_of
 from navmesh.routes.graph_search import RUNNING, advance
 from navmesh.routes.query_kernels import SEARCHING, answer, answer_all, answer_search, start_search
 from navmesh.routes.route import STATUSES, Route, Routes, gathered, link_uses
+from navmesh.surface.net import NET
 from navmesh.zones.plain import plain_graph
 
 if TYPE_CHECKING:

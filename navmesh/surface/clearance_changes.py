@@ -54,7 +54,7 @@ def renew_clearance(
     most: float,
 ) -> Renewed | None:
     """What comes of putting the columns of ``window`` from ``fresh``, the cells of the patch ``around``, in
-    the place of those of ``old``, all cells of the grid ``whole``, whose `FIELD` is known. None where more
+    the place of those of ``old``, all cells of the grid ``whole``, whose `NET` is known. None where more
     than the share ``most`` of the grid would have to be looked at."""
     edge = np.array([0, 0, whole.nx, whole.ny])
     inner = _grown(np.array(window), np.full(4, _MARGIN), edge)

@@ -10,17 +10,14 @@ relative to the surface's origin, all distances are horizontal [m].
 from math import sqrt
 
 import numpy as np
-from numba import float64, int32, int64, uint8
 
 from navmesh.surface.columns import column_of
 from navmesh.surface.floor_store import gradient_in, gradient_of, height_in
 from navmesh.surface.storeys import linked, over
 from surefoot.kernels import kernel
-from surefoot.kernels.bundles import BundleType
 from surefoot.kernels.fetching import fetch
 
 __all__ = [
-    "FIELD",
     "cell_at",
     "centre_of",
     "fetch_cell",
@@ -33,23 +30,6 @@ __all__ = [
     "stretch_gap",
     "walk",
 ]
-
-
-FIELD = BundleType(
-    cell=float64,
-    ny=int64,
-    column_start=int32[::1],
-    milestone=int32[::1],
-    storey=uint8[:, ::1],
-    nearest=float64[:, ::1],
-    clearance=float64[::1],
-    choice=uint8[::1],
-    source=int32[::1],
-    list_cell=int32[::1],
-    list_start=int32[::1],
-    blocker=float64[:, ::1],
-)
-"""What is needed to measure distances before there is a graph; names as in `NET`."""
 
 
 @kernel(error_model="numpy", forceinline=True)

@@ -59,7 +59,7 @@ def _over(net, c, column, way):
 
 @kernel(error_model="numpy")
 def recall(field, column_start, nx, nearest):
-    """Fill in ``nearest`` (n, 2) float64 [m] of all cells of a `FIELD` of ``nx`` strips of columns. The turns
+    """Fill in ``nearest`` (n, 2) float64 [m] of all cells of a `NET` of ``nx`` strips of columns. The turns
     are gone through again in their order, so each cell finds what it took."""
     choice, cells = field.choice, field.choice.shape[0]
     nearest[:] = np.inf

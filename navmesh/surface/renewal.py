@@ -76,7 +76,7 @@ def renew_surface(
 
 
 def cells_in(surface: Surface, window: Window) -> tuple[Any, np.ndarray]:
-    """The cells of the columns of ``window`` by themselves as a `FIELD`, links that lead out of it being cut,
+    """The cells of the columns of ``window`` by themselves as a `NET`, links that lead out of it being cut,
     without what measuring distances takes; and the number of each of them in the whole (n,) int32."""
     start, storey, where = cells_within(
         surface.column_start, surface.storey, np.array(window), surface.shape[1]

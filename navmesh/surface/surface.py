@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from navmesh.surface.clearance_field import FIELD
 from navmesh.surface.columns import columns_of, columns_of_all
 from navmesh.surface.floor_store import FloorStore
+from navmesh.surface.net import NET, NO_GRAPH
 from navmesh.surface.recall import recall
 from navmesh.surface.storeys import APART, links_of
 from surefoot.kernels.bundles import Bundle
@@ -64,12 +64,17 @@ class Surface:
 
     @property
     def field(self) -> Any:
-        """What kernels need to measure distances, a `FIELD`."""
+        """What kernels need to measure distances: a `navmesh.surface.net.NET` without floor and graph."""
+        return self.net()
+
+    def net(self, **graph: Any) -> Any:
+        """A `NET` of the surface, with what is given of the rest, and `NO_GRAPH` for what is not."""
         return Bundle(
-            FIELD, cell=self.resolution, ny=self.shape[1], column_start=self.column_start,
+            NET, cell=self.resolution, nx=self.shape[0], ny=self.shape[1], column_start=self.column_start,
             milestone=self.milestone, storey=self.storey, nearest=self.kept_nearest,
             clearance=self.clearance, choice=self.choice, source=self.source,
             list_cell=self.list_cell, list_start=self.list_start, blocker=self.blocker,
+            **{**NO_GRAPH, **graph},
         )  # fmt: skip
 
     @property

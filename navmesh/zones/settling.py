@@ -112,8 +112,8 @@ def _renew(net, switches, doors, kept, i, j, door, width, border, gate):
 @kernel(error_model="numpy")
 def _opens(net, i, j, width, border, gate, radius):
     if i < j:
-        return is_open_to(net, i, j, width, border, gate, radius)
-    return is_open_to(net, j, i, width, border[::-1], gate, radius)
+        return is_open_to(net, i, j, width, border[0], border[1], gate, radius)
+    return is_open_to(net, j, i, width, border[1], border[0], gate, radius)
 
 
 @kernel(forceinline=True)

@@ -440,7 +440,7 @@ def _measure(switches, net, zone, wanted):
                 key[count], pair[count, 0], pair[count, 1] = its, first, second
                 width[count] = min(net.clearance[c], net.clearance[n])
                 count += 1
-    order = np.argsort(key[:count])
+    order = np.argsort(key[:count]).astype(np.int32)
     at = 0
     while at < count:
         end = at + 1

@@ -404,8 +404,9 @@ def _feel(places, frames, bodies, ncon, pairs, addresses, forces, geoms, points,
 
 def feel(parts: Parts, data: mujoco.MjData, felt: NDArray[np.float64]) -> None:
     """Read soles and forces of ``data`` into ``felt``, right after a physics step."""
-    contact = data.contact
+    # one contact is contiguous, several are not: for both the same kernel
+    pairs, addresses = map(np.ascontiguousarray, (data.contact.geom, data.contact.efc_address))
     _feel(
-        data.xpos, data.xmat, parts.bodies, data.ncon, contact.geom, contact.efc_address, data.efc_force,
+        data.xpos, data.xmat, parts.bodies, data.ncon, pairs, addresses, data.efc_force,
         parts.geoms, _SOLE_POINTS, felt,
     )  # fmt: skip

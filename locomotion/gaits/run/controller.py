@@ -420,8 +420,9 @@ def observe(
     ``fresh``: this is the first look at a pose that was put there, so the velocity already in ``state``
     stays.
     """
-    contact = data.contact
+    # one contact is contiguous, several are not: for both the same kernel
+    pairs, addresses = map(np.ascontiguousarray, (data.contact.geom, data.contact.efc_address))
     _observe(
         state, data.subtree_com, data.xpos, data.xmat, index.root, index.feet, index.chest, data.ncon,
-        contact.geom, contact.efc_address, data.efc_force, index.geom_side, fresh,
+        pairs, addresses, data.efc_force, index.geom_side, fresh,
     )  # fmt: skip

@@ -7,7 +7,8 @@ import pytest
 
 from navmesh.graph.kernel_arrays import net_of
 from navmesh.graph.snapping import snap
-from navmesh.surface.clearance_field import FIELD, gap_at, stretch_gap, walk
+from navmesh.surface.clearance_field import gap_at, stretch_gap, walk
+from navmesh.surface.net import NET, NO_GRAPH
 from navmesh.surface.storeys import APART
 from surefoot.kernels.bundles import Bundle
 from tests.navmesh.routes.path_references import (
@@ -77,11 +78,12 @@ def test_of_two_equally_near_blockers_the_first_counts_however_often_it_is_asked
         told = []
         for source in ((0, 0, 2), (0, 1, 2)):
             field = Bundle(
-                FIELD, cell=0.25, ny=9, column_start=np.searchsorted(column, np.arange(11)).astype(np.int32),
+                NET, cell=0.25, nx=2, ny=9,
+                column_start=np.searchsorted(column, np.arange(11)).astype(np.int32),
                 milestone=np.array([0, 9], np.int32), storey=storey, nearest=np.zeros((3, 2)),
                 clearance=np.ones(3), choice=np.zeros(3, np.uint8), source=np.array(source, np.int32),
                 list_cell=np.arange(3, dtype=np.int32), list_start=np.arange(4, dtype=np.int32),
-                blocker=blocker,
+                blocker=blocker, **NO_GRAPH,
             )  # fmt: skip
             told.append(stretch_gap(field, 0, 0, -1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.05, 2.0))
         assert told[0] == told[1]

@@ -48,9 +48,10 @@ if [ ! -x "$folder/bin/python" ]; then
     fi
 fi
 
+# --no-compile: Python compiles what is imported, which is a fraction of what is installed
 echo "== installing Surefoot and what it needs into $folder (some minutes)"
 if "$folder/bin/python" -c 'import pip' 2>/dev/null; then
-    "$folder/bin/python" -m pip install --quiet --disable-pip-version-check -e "$root$extras"
+    "$folder/bin/python" -m pip install --quiet --no-compile --disable-pip-version-check -e "$root$extras"
 else
-    "$python" -m pip --python "$folder/bin/python" install --quiet --disable-pip-version-check -e "$root$extras"
+    "$python" -m pip --python "$folder/bin/python" install --quiet --no-compile --disable-pip-version-check -e "$root$extras"
 fi

@@ -22,7 +22,7 @@ import numpy as np
 from locomotion import Human
 from locomotion.body.hand_hold import let_go_both
 from locomotion.gaits.run.skill import load_run_skill
-from locomotion.rehearsal.trials import REHEARSALS
+from locomotion.rehearsal.choices import REHEARSALS
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.vault.skill import Vault, load_vault_skill
 from runtime.evaluation.courses import CourseRun, held, make_course, run_course

@@ -20,7 +20,7 @@ import numpy as np
 
 from benchmarks.workers import add_place, place_of
 from locomotion import Human
-from locomotion.rehearsal.trials import REHEARSALS
+from locomotion.rehearsal.choices import REHEARSALS
 from locomotion.training.skills.vault import DEPTHS
 from runtime.evaluation.courses import Course, make_course, run_course
 from runtime.evaluation.evaluation import start_noise

@@ -1,12 +1,13 @@
 """Places in which skills are hard to do: how many people get through, without rehearsals and with them.
 
-    python -m benchmarks.hard_places [--only thin thick gap slippery pair short] [--trials 40] [--seed 1]
-        [--processes 1] [--json hard.json]
+    python -m benchmarks.hard_places [--only thin thick gap slippery pair short platform] [--trials 40]
+        [--seed 1] [--processes 1] [--json hard.json]
 
 People start from a stand, with noise of 0.02 m/s and rad/s, and are to be at a goal 15 m behind the last
 obstacle. thin, thick: a wall 0.1 or 0.6 m thick, of any height that is vaulted. gap: 1.8 m wide. slippery:
 shoes and ground with a coefficient of friction of 0.45, an obstacle of any kind and size. pair: two
 obstacles of any kinds and sizes 6 m apart. short: one 5 m ahead, of any kind and size, cleared within 15 s.
+platform: jumped onto, 1.5 m long, then a drop of any height.
 All but short start 9 to 16 m away. Time: until the last obstacle is cleared.
 """
 
@@ -24,7 +25,7 @@ from benchmarks.workers import add_place, place_of
 from locomotion import MOVING, Human
 from locomotion.body_events import Cleared
 from locomotion.preconditions.moments import make_slippery
-from locomotion.rehearsal.trials import REHEARSALS
+from locomotion.rehearsal.choices import REHEARSALS
 from locomotion.skills.registry import skill_kind, skill_kinds
 from locomotion.training.skills.vault import DEPTHS
 from runtime.evaluation.courses import enter_course, make_course
@@ -62,13 +63,18 @@ def _short(rng: np.random.Generator) -> tuple[list[Obstacle], list[float]]:
     return [_any(rng)], [5.0]
 
 
+def _platform(rng: np.random.Generator) -> tuple[list[Obstacle], list[float]]:
+    up, down = (float(rng.uniform(*skill_kind(kind).sizes)) for kind in ("jump", "drop"))
+    return [("jump", up, 0.0), ("drop", down, 0.0)], [_far(rng), 1.5]
+
+
 def _far(rng: np.random.Generator) -> float:
     return float(rng.uniform(9.0, 16.0))
 
 
 PLACES: dict[str, Callable[[np.random.Generator], tuple[list[Obstacle], list[float]]]] = {
     "thin": partial(_wall, 0.1), "thick": partial(_wall, 0.6), "gap": _gap, "slippery": _one, "pair": _pair,
-    "short": _short,
+    "short": _short, "platform": _platform,
 }  # fmt: skip
 
 

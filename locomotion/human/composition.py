@@ -22,7 +22,7 @@ from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.preconditions.features import FEATURES, before_run_up, describe, site_of
 from locomotion.preconditions.moments import planned
 from locomotion.preconditions.precondition import SLOW_DOWN, Precondition, load_preconditions
-from locomotion.rehearsal.trials import BALKINGS, RUN_UPS
+from locomotion.rehearsal.choices import BALKINGS, RUN_UPS
 from locomotion.skills.interface import ClearingSkill, distance_to
 from locomotion.skills.library import comes_with_package
 from locomotion.skills.run_up_layout import FARTHER, FASTER

@@ -7,19 +7,20 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from locomotion.body_events import GotStuck
-from locomotion.gaits.limits import run_entry_speed
+from locomotion.gaits.limits import RUN_ENTRY, SHORT_ENTRY, run_entry_speed
 from locomotion.gaits.run.layout import STEP_TIME
 from locomotion.human.composition import Composition
 from locomotion.human.person import Person
 from locomotion.human.state import MOVING
 from locomotion.paths.command import HEADING_ASKED
 from locomotion.paths.gait_plan import RUN_UP
-from locomotion.rehearsal.deciding import RECONSIDERS, Decider, Trial
-from locomotion.rehearsal.trials import (
+from locomotion.rehearsal.choices import (
     BALKINGS,
     BRAKINGS,
     ENDINGS,
+    HASTES,
     HOLDS,
+    HOLDS_FULLY,
     RESTS_IN,
     RUN_UPS,
     SETTING_OFF,
@@ -27,19 +28,16 @@ from locomotion.rehearsal.trials import (
     STEPPINGS,
     STEPS_IN,
     WALKS_IN,
-    ComesToRest,
-    StepsOn,
-    balk,
-    clears,
     clears_in,
-    vary_run_up,
-    walks_on,
 )
+from locomotion.rehearsal.deciding import RECONSIDERS, Decider, Trial
+from locomotion.rehearsal.trials import ComesToRest, StepsOn, balk, clears, vary_run_up, walks_on
 from locomotion.rehearsal.understudy import Chooser, Understudy
 
 __all__ = ["GaitChanges"]
 
 _TOO_NEAR = 2.0  # [m] before an obstacle at which a walking person stops
+_BESIDE = 1.5  # [m] beside its path at which nobody begins a run-up
 _TRIES = 40  # ticks after a stop command in which it attempts to brake
 _SURE = 3.2  # [m/s] up to which braking mostly holds unrehearsed
 _SAME = 1e-9  # [m/s²]
@@ -91,21 +89,38 @@ class GaitChanges:
             reason = f"it finds no run-up to the {ahead.affordance} of {ahead.size:.2f} m"
             person.end("stuck", GotStuck(person.time, person.point, reason=reason))
             return
-        speed = run_entry_speed(person.on_feet.walk, person.observed, float(person.command[HEADING_ASKED]))
-        if speed is None or person.go_back():
+        heading = float(person.command[HEADING_ASKED])
+        least = SHORT_ENTRY if run_up.has_little_room(arc) else RUN_ENTRY
+        speed = run_entry_speed(person.on_feet.walk, person.observed, heading, least)
+        if speed is None:
+            return
+        if speed < RUN_ENTRY and self._decider.answer is None:
+            self._decider.undecided = True  # only one that rehearses begins so slowly
+            return
+        if person.go_back():
             return
         if not run_up.comes_within(arc, RUN_UP):
             person.run(False, speed)
             return
+        if abs(person.lateral_error) > _BESIDE:
+            return
+        self._set_off(speed)
+
+    def _set_off(self, speed: float) -> None:
+        """Begin to run towards the obstacle ahead, from ``speed`` [m/s], if rehearsals hold; from less than
+        usual, because there is little room, only if they hold in full."""
+        person = self._person
         if self._decider.answer is None and not self._composition.dares_to_set_off():
             return
 
-        def set_off(body: Chooser, choice: tuple[bool, Sequence[float]]) -> None:
-            body.set_off(choice, speed)
+        def set_off(body: Chooser, choice: tuple[bool, Sequence[float], float]) -> None:
+            quickly, run_up, ahead = choice
+            body.set_off((quickly, run_up), speed + ahead)
 
-        choice, went, seen, known = self._decider.best(person, SETTING_OFF, set_off, _CLEARS, self._clears_in)
-        if went >= HOLDS and (known or self._decider.answer is None):
-            person.set_off(choice, speed)
+        choices, least = (SETTING_OFF, HOLDS) if speed >= RUN_ENTRY else (HASTES, HOLDS_FULLY)
+        choice, went, seen, known = self._decider.best(person, choices, set_off, _CLEARS, self._clears_in)
+        if went >= least and (known or self._decider.answer is None):
+            set_off(person, choice)
             self._decider.predicted.expect(person, seen)
 
     def choose_step(self) -> None:

@@ -53,9 +53,9 @@ from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.paths.table import PathTable, TrackingLimits
 from locomotion.paths.tracking import make_path
 from locomotion.recovery.on_all_fours import OnAllFours
+from locomotion.rehearsal.choices import REHEARSALS
 from locomotion.rehearsal.deciding import Decider
 from locomotion.rehearsal.lookahead import PER_TICK, Lookahead
-from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.library import learned_skills
 from locomotion.skills.obstacle_check import check_obstacles

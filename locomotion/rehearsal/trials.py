@@ -19,103 +19,57 @@ import mujoco
 import numpy as np
 
 from locomotion.body.person import CONTROL_DT
-from locomotion.body_events import Cleared, TookOff
+from locomotion.body_events import Cleared, TookOff, WentBack
 from locomotion.gaits.walk.layout import LONGER, WALK_HEADING, WALK_SPEED
 from locomotion.human.state import MOVING, HumanState, same
-from locomotion.paths.gait_plan import braking_length
+from locomotion.paths.gait_plan import RUN_UP, braking_length
+from locomotion.rehearsal.choices import (
+    BALKINGS,
+    BRAKINGS,
+    ENDINGS,
+    RUN_UPS,
+    RUNS_ON,
+    SETTLED,
+    SLOWINGS,
+    STEPS_IN,
+)
 from locomotion.rehearsal.contact_report import ContactReport, Watcher
 from locomotion.rehearsal.deciding import Outcome, Question, Trial, tick_unless_asked
 from locomotion.rehearsal.understudy import Chooser, Understudy
 from surefoot.pausing import pause
 
 __all__ = [
-    "BALKINGS",
-    "BRAKINGS",
-    "ENDINGS",
-    "HOLDS",
-    "REHEARSALS",
-    "RESTS_IN",
-    "RUN_UPS",
-    "SETTING_OFF",
-    "SLOWINGS",
     "STAYS_UP",
-    "STEPPINGS",
-    "STEPS_IN",
-    "WALKS_IN",
     "ComesToRest",
     "Rehearsal",
     "StepsOn",
     "at_once",
     "balk",
     "clears",
-    "clears_in",
     "first_good",
     "vary_run_up",
     "walks_on",
 ]
 
-_RUNNING, _WALKING = round(2.2 / CONTROL_DT), round(4.0 / CONTROL_DT)
-# ticks that it must stay up behind an obstacle
+_WALKING, _TURNING = round(4.0 / CONTROL_DT), round(7.0 / CONTROL_DT)
+# ticks that it must stay up behind an obstacle if it walks on, and if it goes back for the next one
 _TRAPPED = 0.25  # score if it clears an obstacle but finds no way to continue
 _LOOKED_AT = 2  # variations tried for continuing: after a good landing most work, after a bad one none
 _ASKED = 8  # attempts to slow down behind an obstacle
-_SETTLED = round(3.0 / CONTROL_DT)  # ticks that it must stay up after a change of gait
 _WATCHED = round(1.0 / CONTROL_DT)  # last ticks of these, in which it must not stagger
 _STAGGERS = 0.2  # [m] nearer to or farther from its path: that much is staggering
 _AT_REST = round(3.5 / CONTROL_DT)  # ticks that it must stand still after braking
 _ASKEW = 0.5  # [rad] off its heading up to which it loses little time when it goes on
 _SLOWEST = 0.1  # [m/s] of one that brakes
 _FAILED = ("fallen", "lost", "stuck")
-_LONGEST = round(12.0 / CONTROL_DT)
-_RUNS = 3.0  # [m/s] about
+_LONGEST = round(16.0 / CONTROL_DT)
 _HEADWAY, _LITTLE = 0.4, 0.3  # share of the way that it is to make meanwhile; [m] less
 _RESTLESS = round(2.0 / CONTROL_DT)  # ticks after which it must not step where it is to stand
-_STEPPING = round(3.0 / CONTROL_DT)  # ticks that it must stay up on uneven ground
-_MARKS, _ENTRIES = (0.0, 0.04, -0.04, 0.08, -0.08), (0.0, 0.1, -0.1, 0.2, -0.2)
 
 _T = TypeVar("_T")
 _R = TypeVar("_R")
-
-
-def _nearest_first(*spans: Sequence[float]) -> tuple[tuple[float, ...], ...]:
-    """All combinations of numbers, smallest changes first."""
-    greatest = [max(span) for span in spans]
-    choices = itertools.product(*spans)
-    return tuple(sorted(choices, key=lambda choice: float(np.hypot.reduce(np.divide(choice, greatest)))))
-
-
-REHEARSALS = 16
-"""Default for the most variations tried for one decision."""
-RUN_UPS = _nearest_first(_MARKS, _ENTRIES)
-"""Variations of a run-up: take-off mark farther from the obstacle [m], faster entry [m/s]."""
-SETTING_OFF = tuple((quickly, run_up) for run_up in RUN_UPS[:3] for quickly in (True, False))
-"""Ways to begin the run towards an obstacle: whether to accelerate quickly, and the variation of the run-up.
-Only a few, because it may as well begin at its next step."""
-SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
-"""[m/s^2] by which the run's reference speed is lowered."""
-ENDINGS = (True,)
-"""The way to end a run as learned."""
-BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)
-"""[m/s^2] the same for aborting a run-up: harder ones hold as well, and the obstacle is near."""
-BRAKINGS = (2.5, 2.8, 2.0, 2.3, 1.65, 1.3, 0.9)
-"""How hard it brakes, relative to what was learned; those that hold most often come first."""
-STEPPINGS = (
-    (0.0, 0.0), (0.05, 0.0), (-0.05, 0.0), (0.0, 0.08), (0.0, -0.08), (0.05, 0.08),
-    (0.1, 0.0), (0.1, 0.08), (0.0, 0.15), (0.05, -0.08), (-0.05, 0.08), (0.15, 0.0),
-)  # fmt: skip
-"""Variations of a step on uneven ground: [s] added to its transfer and to its swing. Only a few, because
-there are many steps: where these fail, others rarely succeed, and the next step may still save it."""
 STAYS_UP = 0.5
 """Least score of a step after which a person stays up."""
-HOLDS = 0.5
-"""Least score at which a run-up is begun and not aborted."""
-STEPS_IN, RESTS_IN, WALKS_IN = _STEPPING, round(2.0 / CONTROL_DT), _SETTLED + round(1.0 / CONTROL_DT)
-"""Ticks of a trial that holds: of a step on uneven ground, of braking, of slowing down to a walk."""
-
-
-def clears_in(away: float) -> int:
-    """The same for an obstacle ``away`` [m] ahead."""
-    return round(away / _RUNS / CONTROL_DT) + _RUNNING
 
 
 def at_once(task: Generator[None, None, _R]) -> _R:
@@ -186,13 +140,15 @@ def clears(body: Understudy, looks_on: bool = True, notes: bool = False) -> Tria
 
     looks_on: whether its options at a near next obstacle count too. notes: whether to record its ticks until
     the next decision; its events are dropped. If it falls behind the obstacle because it did not decide how
-    to slow down, it restarts from there and decides.
+    to slow down, it restarts from there and decides. If it takes off for a next obstacle before it could
+    decide anything, it has to clear that as well. If it walks and then runs where no obstacle is near, which
+    has no rehearsal of its own, it has to stay up running.
     """
     obstacle = body.obstacle_ahead
     assert obstacle is not None
-    report, cleared_at = ContactReport(), 0
+    report, cleared_at, clean = ContactReport(), 0, True
     watcher: Watcher | None = None  # from where it takes off
-    walked = False
+    walked, walks_for, since = False, _WALKING, 0
     seen: list[HumanState] = []
     decided: HumanState | None = None  # before a decision behind the obstacle
     body.decider.undecided = False
@@ -208,29 +164,41 @@ def clears(body: Understudy, looks_on: bool = True, notes: bool = False) -> Tria
                 and body.decider.undecided
                 and (yield from slows_down_in_time(body, decided))
             ):
-                return (1.0 if report.clean(obstacle.affordance) else 0.5), seen
+                return (1.0 if clean else 0.5), seen
             return 0.0, []
         if notes and not body.decider.undecided:
             seen.append(body.save_state())
         again = False
         for event in body.events:
             if isinstance(event, Cleared):
-                cleared_at = tick
+                cleared_at, since, clean = tick, tick, clean and report.clean(obstacle.affordance)
             elif isinstance(event, TookOff):
                 watcher, again = watcher or Watcher(body.index, body.model), cleared_at > 0
+                if again and not body.decider.undecided and body.obstacle_ahead is not None:
+                    obstacle, report, cleared_at, again = body.obstacle_ahead, ContactReport(), 0, False
+            elif isinstance(event, WentBack):
+                walks_for = _TURNING
         if cleared_at:
             walks = body.gait_now == "walk"
-            again |= walked and not walks
+            if walked and not walks:
+                again |= _runs_at_an_obstacle(body)
+                since = tick
             walked = walks
-            good = 1.0 if report.clean(obstacle.affordance) else 0.5
+            good = 1.0 if clean else 0.5
             if looks_on and body.begins_run_up and body.hemmed_in:
                 goes_on = yield from finds_a_way_on(body)
                 return (good if goes_on else _TRAPPED), seen
-            if again or tick - cleared_at >= (_WALKING if walks else _RUNNING) or body.held:
+            if again or tick - since >= (walks_for if walks else RUNS_ON) or body.held:
                 return good, seen
         elif watcher is not None:
             watcher.look(body.data, obstacle, report)
     return 0.0, []
+
+
+def _runs_at_an_obstacle(body: Understudy) -> bool:
+    """Whether a run that begins now is a run-up, which has its own rehearsal."""
+    ahead = body.obstacle_ahead
+    return ahead is not None and ahead.arc_length - body.follower.arc_length < RUN_UP
 
 
 def vary_run_up(body: Chooser, choice: Sequence[float]) -> None:
@@ -257,7 +225,7 @@ def slows_down_in_time(body: Understudy, state: HumanState) -> Generator[None, N
     """Whether one about to slow down in ``state`` finds a way to slow down or brake that succeeds. Tries
     fewer variations than at the moment itself."""
     answers: list[tuple[Question, Outcome]] = []
-    for _ in range(_RUNNING):
+    for _ in range(RUNS_ON):
         body.restore_state(state)
         body.events.clear()
         question = tick_unless_asked(body, answers)
@@ -347,7 +315,7 @@ class StepsOn:
             body.become(moments[-1].state)
         for _ in moments:
             yield  # takes as many ticks as if they were not known
-        while not (moments and _ends(moments[-1])) and len(moments) < _STEPPING:
+        while not (moments and _ends(moments[-1])) and len(moments) < STEPS_IN:
             body.events.clear()
             body.decider.undecided = False
             body.tick()
@@ -381,7 +349,7 @@ def _headway(left: float, moments: Sequence[_Moment]) -> float:
     """Its score; ``left``: [m] of path left at the beginning."""
     last = moments[-1]
     if last.state.status in _FAILED:
-        return STAYS_UP * len(moments) / _STEPPING
+        return STAYS_UP * len(moments) / STEPS_IN
     if last.rests:
         return 1.0
     if sum(moment.state.status not in MOVING for moment in moments) > _RESTLESS:
@@ -399,15 +367,14 @@ def _failed(body: Understudy) -> bool:
 
 def walks_on(body: Understudy, notes: bool = False) -> Trial:
     """Whether a body that slows down comes to walk or stand, and stays up: 1 if it does not end staggering to
-    one side, which would make it fall later. ``notes``: whether to record its ticks; its events are then
-    dropped.
+    one side, which would make it fall later. One that turns round for another run-up has to stay up for
+    longer. ``notes``: whether to record its ticks. Its events are dropped.
     """
     seen: list[HumanState] = []
-    walked, beside = 0, 0.0
+    walked, beside, walks_for = 0, 0.0, SETTLED
     body.decider.undecided = False
     for _ in range(_LONGEST):
-        if notes:
-            body.events.clear()
+        body.events.clear()
         body.tick()
         yield
         if notes and not body.decider.undecided:
@@ -418,9 +385,11 @@ def walks_on(body: Understudy, notes: bool = False) -> Trial:
             return 1.0, seen[:-1]  # running again has its own rehearsal
         if body.held:
             return 1.0, seen
-        if walked == _SETTLED - _WATCHED:
+        if any(isinstance(event, WentBack) for event in body.events):
+            walks_for = _TURNING
+        if walked == walks_for - _WATCHED:
             beside = body.lateral_error
-        if walked >= _SETTLED:
+        if walked >= walks_for:
             return (1.0 if abs(body.lateral_error - beside) < _STAGGERS else 0.5), seen
         walked = walked + 1 if body.gait_now == "walk" else 0
     return 0.0, []

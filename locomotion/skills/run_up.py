@@ -82,6 +82,11 @@ class RunUp:
         number = int(self.plan[NEXT])
         return self.obstacles[number] if number < len(self.obstacles) else None
 
+    def has_little_room(self, arc: float) -> bool:
+        """Whether the next obstacle ahead of arc length ``arc`` is nearer than the way in which a body that
+        begins to run comes to its entry speed."""
+        return self.comes_within(arc, _ROOM)
+
     @property
     def passed(self) -> float:
         """Arc length [m] to which it can go back: behind the obstacle that it has cleared last, or 0."""

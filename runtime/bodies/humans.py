@@ -33,8 +33,8 @@ from locomotion.recorded_people.fading import fade_from, faded, rates
 from locomotion.recorded_people.nodes import can_hold, checked_node
 from locomotion.recorded_people.people import person_postures
 from locomotion.recorded_people.person import RecordedPerson
+from locomotion.rehearsal.choices import REHEARSALS
 from locomotion.rehearsal.sharing import REHEARSAL_TICKS, allot
-from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.saved_arrays import check_array, check_number
 from locomotion.skills.interface import ClearingSkill, skill_ranges
 from locomotion.skills.library import learned_skills

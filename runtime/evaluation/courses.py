@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from locomotion import MOVING, Ground, Human
 from locomotion.body_events import Cleared, TookOff
+from locomotion.rehearsal.choices import REHEARSALS
 from locomotion.rehearsal.contact_report import ContactReport, Watcher
-from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.course import AFTER, Course, make_course
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.registry import skill_kind

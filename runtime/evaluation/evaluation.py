@@ -17,7 +17,7 @@ from locomotion.body.person import CONTROL_DT
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import load_run_skill
 from locomotion.human.state import HumanState
-from locomotion.rehearsal.trials import REHEARSALS
+from locomotion.rehearsal.choices import REHEARSALS
 from locomotion.skills.description import load_described
 from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.jump.kind import JUMP

@@ -16,8 +16,8 @@ import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion import body_events as bodily
 from locomotion.body.person import CONTROL_DT
+from locomotion.rehearsal.choices import REHEARSALS
 from locomotion.rehearsal.sharing import REHEARSAL_TICKS
-from locomotion.rehearsal.trials import REHEARSALS
 from locomotion.skills.library import described_ranges, different, learned_digest, learned_skills
 from runtime.bodies.cast import Cast
 from runtime.bodies.kinds.kind import WALKS, BodyKind, Surroundings

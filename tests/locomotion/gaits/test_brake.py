@@ -10,7 +10,8 @@ from locomotion.body.person import MASS
 from locomotion.gaits.brake import BRAKE_SKILL, FIRST_STEPS, load_brake_skill
 from locomotion.gaits.run import controller
 from locomotion.paths.gait_plan import braking_length
-from locomotion.rehearsal.trials import BRAKINGS, ComesToRest, at_once, first_good
+from locomotion.rehearsal.choices import BRAKINGS
+from locomotion.rehearsal.trials import ComesToRest, at_once, first_good
 from tests.locomotion.gaits.runners import running, way_of_stop
 
 

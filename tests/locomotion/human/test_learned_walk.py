@@ -15,7 +15,8 @@ from locomotion.gaits.walk.layout import WALK_STEPS
 from locomotion.ground.ground import Ground
 from locomotion.human.human import Human
 from locomotion.human.saved_state_check import check_person
-from locomotion.rehearsal.trials import BRAKINGS, ComesToRest, at_once
+from locomotion.rehearsal.choices import BRAKINGS
+from locomotion.rehearsal.trials import ComesToRest, at_once
 from tests.locomotion.human.people import finish, flat_ground
 
 

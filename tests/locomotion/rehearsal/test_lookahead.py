@@ -7,10 +7,11 @@ from locomotion.body_events import Cleared
 from locomotion.human import gait_changes
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
+from locomotion.rehearsal.choices import BRAKINGS, SLOWINGS
 from locomotion.rehearsal.deciding import RECONSIDERS
 from locomotion.rehearsal.lookahead import PER_TICK, Lookahead
 from locomotion.rehearsal.predicted import Predicted
-from locomotion.rehearsal.trials import BRAKINGS, SLOWINGS, ComesToRest, Rehearsal
+from locomotion.rehearsal.trials import ComesToRest, Rehearsal
 from runtime.evaluation.courses import enter_course, make_course
 from tests.locomotion.gaits.runners import running
 

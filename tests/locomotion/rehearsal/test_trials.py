@@ -13,7 +13,7 @@ from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.rehearsal import trials
 from locomotion.rehearsal.contact_report import ContactReport, Watcher
 from locomotion.rehearsal.lookahead import Lookahead
-from locomotion.rehearsal.trials import RUN_UPS, STEPPINGS, at_once, clears, walks_on
+from locomotion.rehearsal.trials import at_once, clears, walks_on
 from locomotion.skills.interface import foot_distance
 from runtime.evaluation.courses import make_course, run_course
 from tests.enough import enough
@@ -68,13 +68,6 @@ def distance_unrehearsed():
     while not human.events or not isinstance(human.events[-1], TookOff):
         human.tick()
     return human.events[-1].takeoff_error + MARK
-
-
-def test_variations_begin_with_none_and_grow():
-    assert RUN_UPS[0] == (0.0, 0.0) and len(set(RUN_UPS)) == len(RUN_UPS)
-    assert STEPPINGS[0] == (0.0, 0.0)
-    sizes = [np.hypot(farther / 0.08, faster / 0.2) for farther, faster in RUN_UPS]
-    assert np.all(np.diff(sizes) >= -1e-12)
 
 
 def test_it_takes_off_from_where_the_skill_works():
@@ -142,6 +135,85 @@ def test_clearing_an_obstacle_without_a_way_on_behind_it_is_worth_less(monkeypat
     monkeypatch.setattr(trials, "walks_on", never_walks_on)
     human.restore_state(here)
     assert 0.0 < at_once(clears(human))[0] < 1.0
+
+
+def at_a_pair(from_):
+    """One that has decided on its run-up to an edge, with another so close behind it that it takes off
+    again at once, for which it needs ``from_`` [m]."""
+    first, second = Picky(0.0), Picky(from_)
+    second.heights = (0.6, 0.8)
+    human = Human(None, clearing=[first, second], rehearsals=0)
+    edges = [
+        ObstacleAhead(x, "drop", height, np.array([x, 0, 0]), np.array([-1.0, 0, 0]))
+        for x, height in ((14.0, 0.4), (15.0, 0.7))
+    ]
+    human.reset((0, 0, 0), 0.0, speed=3.0)
+    human.follow([[0, 0, 0], [30, 0, 0]], 3.0, edges)
+    while not human.begins_run_up:
+        human.tick()
+    human.vary_run_up((0.0, 0.0))
+    return human, second
+
+
+def test_a_rehearsal_goes_on_over_what_follows_at_once():
+    human, second = at_a_pair(0.0)
+    assert at_once(clears(human))[0] == 1.0 and second.starts == 1
+    human, second = at_a_pair(100.0)  # it falls there
+    assert at_once(clears(human))[0] == 0.0 and second.starts == 1
+
+
+class Scripted:
+    """A body that walks, ``happens`` (its tick: its event), begins to run at tick ``runs`` and falls at tick
+    ``falls``. ``next_one``: the obstacle ahead from when it runs."""
+
+    gait_now, held, begins_run_up, hemmed_in, status = "walk", False, False, False, "walking"
+    follower = SimpleNamespace(arc_length=3.0)
+    lateral_error = 0.0
+    obstacle_ahead = ObstacleAhead(2.0, "jump", 0.4, np.zeros(3), np.array([-1.0, 0, 0]))
+
+    def __init__(self, happens, falls, runs=9999, next_one=None):
+        self.runs, self.next_one = runs, next_one
+        self.happens, self.falls, self.ticks, self.events = happens, falls, 0, []
+        self.decider = SimpleNamespace(undecided=False)
+
+    def save_state(self):
+        return None
+
+    def tick(self):
+        self.ticks += 1
+        self.events += [event for at, event in self.happens.items() if at == self.ticks]
+        if self.ticks == self.runs:
+            self.gait_now, self.obstacle_ahead = "run", self.next_one
+        if self.ticks == self.falls:
+            self.status = "fallen"
+
+
+CLEARED, BACK = Cleared(0.0, (0, 0, 0), "jump", 0.4), WentBack(0.0, (0, 0, 0), "jump", 0.4, 1.0)
+
+
+def test_one_that_turns_round_behind_an_obstacle_is_watched_for_longer():
+    assert at_once(clears(Scripted({100: CLEARED}, 600)))[0] == 1.0  # it walked steadily before
+    assert at_once(clears(Scripted({100: CLEARED, 200: BACK}, 600)))[0] == 0.0
+    assert at_once(clears(Scripted({100: CLEARED, 200: BACK}, 900)))[0] == 1.0
+
+
+def test_one_that_turns_round_after_slowing_down_is_watched_for_longer():
+    assert at_once(walks_on(Scripted({}, 600)))[0] == 1.0
+    assert at_once(walks_on(Scripted({100: BACK}, 600)))[0] == 0.0
+    assert at_once(walks_on(Scripted({100: BACK}, 900)))[0] == 1.0
+
+
+def test_running_on_after_a_walk_is_rehearsed_unless_it_is_a_run_up():
+    near, far = (ObstacleAhead(x, "jump", 0.4, np.zeros(3), np.array([-1.0, 0, 0])) for x in (13.0, 40.0))
+    assert at_once(clears(Scripted({100: CLEARED}, 500, runs=450)))[0] == 0.0
+    assert at_once(clears(Scripted({100: CLEARED}, 500, runs=450, next_one=far)))[0] == 0.0
+    assert at_once(clears(Scripted({100: CLEARED}, 500, runs=450, next_one=near)))[0] == 1.0
+    assert at_once(clears(Scripted({100: CLEARED}, 700, runs=450)))[0] == 1.0
+
+
+def test_a_rehearsal_waits_16_seconds_for_what_is_to_happen():
+    assert at_once(clears(Scripted({1100: CLEARED}, 9999)))[0] == 1.0
+    assert at_once(clears(Scripted({1700: CLEARED}, 9999)))[0] == 0.0
 
 
 class Walks:

@@ -24,9 +24,10 @@ from locomotion.gaits.walk.layout import (
 )
 from locomotion.ground.ground import Ground, extruded
 from locomotion.human.state import MOVING, same
+from locomotion.rehearsal.choices import REHEARSALS, STEPPINGS
 from locomotion.rehearsal.lookahead import Lookahead
 from locomotion.rehearsal.predicted import Predicted
-from locomotion.rehearsal.trials import REHEARSALS, STAYS_UP, STEPPINGS, StepsOn, at_once
+from locomotion.rehearsal.trials import STAYS_UP, StepsOn, at_once
 from tests.enough import enough
 
 _STEPS, _RISE, _TREAD = 9, 0.12, 0.52  # number; [m] of each along the way: its front, and behind it

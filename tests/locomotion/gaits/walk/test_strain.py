@@ -23,7 +23,7 @@ from locomotion.gaits.walk.strain import STRAINED, USUAL, note_strain, slope_ahe
 from locomotion.ground.ground import Ground
 from locomotion.human.state import MOVING
 from locomotion.paths.command import COMMAND_SIZE, SLOPE_THERE
-from locomotion.rehearsal.trials import REHEARSALS
+from locomotion.rehearsal.choices import REHEARSALS
 
 
 @pytest.mark.parametrize("stance", [-1.0, 1.0])

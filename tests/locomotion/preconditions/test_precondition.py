@@ -15,8 +15,8 @@ from locomotion.preconditions.precondition import (
 )
 
 
-def site(size):
-    told = dict.fromkeys(SITE, 0.0) | {"size": size, "depth": 0.3, "grip": 0.9}
+def site(size, depth=0.3):
+    told = dict.fromkeys(SITE, 0.0) | {"size": size, "depth": depth, "grip": 0.9}
     return np.array(list(told.values()))
 
 
@@ -43,7 +43,6 @@ def test_one_of_another_skill_is_refused(tmp_path):
 def test_what_is_far_beyond_a_skill_is_nearly_hopeless(affordance):
     known = load_preconditions()[affordance]
     low, high = known.heights
-    odds = known.odds_before(
-        np.array([before_run_up(site(size), 12.0) for size in (low, high + (high - low))])
-    )
+    sites = [site(size, size if affordance == "gap" else 0.3) for size in (low, high + (high - low))]
+    odds = known.odds_before(np.array([before_run_up(each, 12.0) for each in sites]))
     assert odds[0] > 0.5 and odds[1] < 0.2

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.anatomy import TRUNK_JOINTS
+from locomotion.body.contacts import contacts_of
 from locomotion.body.hand_hold import HAND_POINT
 from locomotion.body.observed import COM, COM_VELOCITY, CONTACT, FEET, LEFT_FOOT, OBSERVED_SIZE, RIGHT_FOOT
 from locomotion.body.person import CONTROL_DT, PersonIndex
@@ -107,8 +108,7 @@ def observe_scramble(
     """Read what the controller needs of ``data`` into ``memory``, and into ``observed``
     (`locomotion.body.observed`) what everybody asks for; without it: at a pose that was put there, at
     rest."""
-    # one contact is contiguous, several are not: for both the same kernel
-    pairs, addresses = map(np.ascontiguousarray, (data.contact.geom, data.contact.efc_address))
+    pairs, addresses = contacts_of(data)
     fresh = observed is None
     if observed is None:
         observed = np.empty(OBSERVED_SIZE)

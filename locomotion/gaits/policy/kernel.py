@@ -22,6 +22,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from locomotion.body.contacts import contacts_of
 from locomotion.body.person import JOINT_NAMES, PersonIndex
 from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.evaluation import evaluate
@@ -404,8 +405,7 @@ def _feel(places, frames, bodies, ncon, pairs, addresses, forces, geoms, points,
 
 def feel(parts: Parts, data: mujoco.MjData, felt: NDArray[np.float64]) -> None:
     """Read soles and forces of ``data`` into ``felt``, right after a physics step."""
-    # one contact is contiguous, several are not: for both the same kernel
-    pairs, addresses = map(np.ascontiguousarray, (data.contact.geom, data.contact.efc_address))
+    pairs, addresses = contacts_of(data)
     _feel(
         data.xpos, data.xmat, parts.bodies, data.ncon, pairs, addresses, data.efc_force,
         parts.geoms, _SOLE_POINTS, felt,

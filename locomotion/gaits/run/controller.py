@@ -44,6 +44,7 @@ import math
 import mujoco
 import numpy as np
 
+from locomotion.body.contacts import contacts_of
 from locomotion.body.person import CONTROL_DT, JOINT_NAMES, PersonIndex
 from locomotion.gaits.run.layout import (
     ACTIONS,
@@ -420,8 +421,7 @@ def observe(
     ``fresh``: this is the first look at a pose that was put there, so the velocity already in ``state``
     stays.
     """
-    # one contact is contiguous, several are not: for both the same kernel
-    pairs, addresses = map(np.ascontiguousarray, (data.contact.geom, data.contact.efc_address))
+    pairs, addresses = contacts_of(data)
     _observe(
         state, data.subtree_com, data.xpos, data.xmat, index.root, index.feet, index.chest, data.ncon,
         pairs, addresses, data.efc_force, index.geom_side, fresh,

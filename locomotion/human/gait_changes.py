@@ -92,12 +92,10 @@ class GaitChanges:
         heading = float(person.command[HEADING_ASKED])
         least = SHORT_ENTRY if run_up.has_little_room(arc) else RUN_ENTRY
         speed = run_entry_speed(person.on_feet.walk, person.observed, heading, least)
-        if speed is None:
+        if speed is None or person.go_back():
             return
         if speed < RUN_ENTRY and self._decider.answer is None:
             self._decider.undecided = True  # only one that rehearses begins so slowly
-            return
-        if person.go_back():
             return
         if not run_up.comes_within(arc, RUN_UP):
             person.run(False, speed)

@@ -87,9 +87,14 @@ class Composition:
         person = self._person
         return person.on_feet.runs and person.run_up.planned > 0.0 and not person.run_up.clearing
 
-    def _site(self, obstacle: ObstacleAhead) -> NDArray[np.float64]:
+    @property
+    def grip(self) -> float:
+        """Coefficient of friction of the ground that it reckons with."""
         ground = self._person.ground
-        return site_of(obstacle, FRICTION if ground is None else ground.friction)
+        return FRICTION if ground is None else ground.friction
+
+    def _site(self, obstacle: ObstacleAhead) -> NDArray[np.float64]:
+        return site_of(obstacle, self.grip)
 
     def _described(self, obstacle: ObstacleAhead, choices: NDArray[np.float64]) -> NDArray[np.float64]:
         """(k, n) features of the present moment, for each of ``choices`` (k, 2) of the run-up."""

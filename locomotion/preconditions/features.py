@@ -17,7 +17,9 @@ from locomotion.preconditions.moments import Moment
 from navmesh.obstacles.kinds import kind_of
 from surefoot.kernels import kernel
 
-__all__ = ["BEFORE", "FEATURES", "SITE", "before_run_up", "describe", "describe_moment", "site_of"]
+__all__ = [
+    "BEFORE", "FEATURES", "MOST_ROOM", "SITE", "before_run_up", "describe", "describe_moment", "site_of",
+]  # fmt: skip
 
 SITE = ("x", "y", "top", "ahead x", "ahead y", "size", "depth", "grip")
 """What is told of an obstacle: a point of its edge [m], the unit direction of the approach, its size and its
@@ -36,7 +38,9 @@ foot to the edge; [m] of the centre of mass over the edge; and how far the senso
 reference."""
 BEFORE = ("size", "depth", "grip", "room")
 """Of an obstacle before the run-up: its first three, and [m] of way before it."""
-_MOST_STEPS, _MOST_ROOM = 8.0, 16.0
+MOST_ROOM = 16.0
+"""[m]: a longer way before an obstacle counts as this."""
+_MOST_STEPS = 8.0
 _SENSORS = len(layout.SENSORS)
 
 
@@ -50,7 +54,7 @@ def site_of(obstacle: ObstacleAhead, grip: float) -> NDArray[np.float64]:
 
 def before_run_up(site: NDArray[np.float64], room: float) -> NDArray[np.float64]:
     """(4,) what `BEFORE` names; ``room``: [m] of way before the obstacle."""
-    return np.array([*site[5:8], min(room, _MOST_ROOM)])
+    return np.array([*site[5:8], min(room, MOST_ROOM)])
 
 
 def describe_moment(moment: Moment, site: NDArray[np.float64]) -> NDArray[np.float64]:

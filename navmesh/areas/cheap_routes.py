@@ -227,6 +227,7 @@ def priced_route(
 ) -> Route:
     """``route``, found without costs, with what it costs; ``link_costs`` as of `NodeGraph.find_path`."""
     origin, cost, first = graph.surface.origin, 0.0, 0
+    own = graph.links.cost if link_costs is None else graph.links.cost + link_costs
     for use in [*route.links, None]:
         last = len(route.waypoints) - 1 if use is None else use.first
         points = route.waypoints[first : last + 1] - origin
@@ -234,8 +235,7 @@ def priced_route(
             cell = graph.project(route.waypoints[first])[0]
             cost += _line_price(net_of(graph), priced.road, int(cell), points)
         if use is not None:
-            cost += float(graph.links.cost[use.link])
-            cost += 0.0 if link_costs is None else float(link_costs[use.link])
+            cost += float(own[use.link])
             first = use.last
     return replace(route, _cost=cost)
 

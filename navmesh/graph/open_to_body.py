@@ -151,7 +151,7 @@ def doors_of(
     of nodes each time)."""
     offered = checked_skills(skills) if skills else ()
     priced = _checked_costs(graph, link_costs)
-    links = offered, None if priced is None else priced.tobytes()
+    offer = offered, None if priced is None else priced.tobytes()
 
     def make() -> Any:
         return _doors(graph, radius, _leaps_for(graph, radius, offered, priced), node_costs)
@@ -160,10 +160,10 @@ def doors_of(
     if zones is None:
         if node_costs is not None:
             return make()
-        return recent(graph.cache, "doors", (radius, *links), make)
+        return recent(graph.cache, "doors", (radius, *offer), make)
     with zones.lock:
         zoned_body(graph, radius)
-        key = radius, *links, zones.slots
+        key = radius, *offer, zones.slots
         doors = make() if node_costs is not None else recent(graph.cache, "doors", key, make)
         settle_leaps(zones, doors)
         return doors

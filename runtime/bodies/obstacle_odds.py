@@ -5,8 +5,8 @@ import numpy as np
 import navmesh
 from locomotion import Human, ObstacleAhead
 from locomotion.gaits.limits import PERSON_RULES
-from locomotion.ground.ground import FRICTION
 from locomotion.paths.run_up_room import straight_before
+from locomotion.preconditions.features import MOST_ROOM
 from locomotion.skills.interface import skill_for, skill_ranges
 from navmesh.obstacles.kinds import kind_of
 from navmesh.recent import recent
@@ -17,7 +17,6 @@ __all__ = ["link_prices", "odds_at"]
 
 _FAILING = 30.0  # [m] of way that a failed try is worth: a fall, getting up, and another run-up
 _LEAST = 0.01  # odds that lower ones count as
-_ROOM = 16.0  # [m] before an edge that is looked at
 
 
 def link_prices(human: Human, graph: navmesh.NodeGraph) -> np.ndarray:
@@ -25,20 +24,18 @@ def link_prices(human: Human, graph: navmesh.NodeGraph) -> np.ndarray:
     p, (1 - p) / p tries fail before one holds. 0 where nothing is known of the skill. Worked out once for
     each graph."""
     known = [(skill, human.composition.precondition(skill)) for skill in human.clearing]
-    grip = FRICTION if human.ground is None else human.ground.friction
+    grip = human.composition.grip
 
     def make() -> np.ndarray:
         links, prices = graph.links, np.zeros(len(graph.links))
-        room = straight_before(graph, PERSON_RULES["radius"], _ROOM)
-        depth = graph.obstacles.depth[links.obstacle]
+        room = straight_before(graph, PERSON_RULES["radius"], MOST_ROOM)
         for skill, precondition in known:
             if precondition is None:
                 continue
             low, high = skill_ranges([skill])[skill.affordance]
             those = (links.affordance == skill.affordance) & (links.height >= low) & (links.height <= high)
-            rows = np.column_stack([links.height, depth, np.full(len(links), grip), room])[those]
-            if not kind_of(skill.affordance).has_depth:
-                rows[:, 1] = 0.0
+            depth = graph.obstacles.depth[links.obstacle[those]] * kind_of(skill.affordance).has_depth
+            rows = np.column_stack([links.height[those], depth, np.full(len(depth), grip), room[those]])
             odds = np.maximum(precondition.odds_before(rows), _LEAST)
             prices[those] = _FAILING * (1.0 - odds) / odds
         return prices

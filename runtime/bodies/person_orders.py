@@ -167,14 +167,16 @@ class Planning:
         return leads(self._graph, order.place, order.velocity, target, self._limits, radius)
 
 
-def _link_costs(graph: navmesh.NodeGraph, closed: tuple[str, ...], prices: np.ndarray | None) -> np.ndarray:
+def _link_costs(
+    graph: navmesh.NodeGraph, closed: tuple[str, ...], prices: np.ndarray | None
+) -> np.ndarray | None:
     """(l,) [m]: ``prices``, or 0; inf for links over obstacles of the tags ``closed``, and for those without
-    room for a run-up."""
+    room for a run-up. None if all are 0."""
     costs = np.zeros(len(graph.links)) if prices is None else prices.copy()
     costs[cramped_links(graph, PERSON_RULES["radius"])] = np.inf
     if closed:
         costs[np.isin(graph.obstacles.tag[graph.links.obstacle], list(closed))] = np.inf
-    return costs
+    return costs if costs.any() else None
 
 
 class OrdersState(NamedTuple):
@@ -192,7 +194,9 @@ class OrdersState(NamedTuple):
         """All of it, equal for equal orders."""
         orders = [self.order] if self.later is None else [self.order, self.later]
         arrays = [array.tobytes() for each in orders for array in (each.goals, each.place, each.velocity)]
-        plain = [(each.speed, each.skilled, each.closed, *each[6:]) for each in orders]
+        plain = [
+            (each.speed, each.skilled, each.closed, each.walks, each.clears, each.by_odds) for each in orders
+        ]
         return b"".join(arrays) + repr((plain, self.ticks, self.since, self.again)).encode()
 
 

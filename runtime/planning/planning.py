@@ -231,9 +231,10 @@ def why_not(
             return "the way there begins at a place where the body does not fit"
         return "it is not near a place where the body fits"
     links = graph.links
-    shut = graph.find_path(start, goal, radius=radius, skills=skills) if link_costs is not None else route
-    if shut.status == "complete":
-        return "no way leads there without " + ", ".join(_cramped(graph, shut, radius, link_costs))
+    if link_costs is not None:
+        shut = graph.find_path(start, goal, radius=radius, skills=skills)
+        if shut.status == "complete":
+            return "no way leads there without " + ", ".join(_cramped(graph, shut, radius, link_costs))
     every = dict.fromkeys(np.unique(links.affordance).tolist(), (0.0, float(links.height.max(initial=0.0))))
     over = graph.find_path(start, goal, radius=radius, skills=every)
     reason = "no way leads there on foot or with the skills at hand"
@@ -249,9 +250,7 @@ def why_not(
     return f"{reason}: a way would lead over {', '.join(beyond)}; there are {offer or 'no skills'}"
 
 
-def _cramped(
-    graph: navmesh.NodeGraph, route: Route, radius: float, link_costs: np.ndarray | None
-) -> list[str]:
+def _cramped(graph: navmesh.NodeGraph, route: Route, radius: float, link_costs: np.ndarray) -> list[str]:
     """What is wrong with each of the links on a route that ``link_costs`` close."""
     kinds, sizes = graph.obstacles.affordance, graph.obstacles.size
     straight = straight_before(graph, radius, LEAST_RUN_UP)
@@ -259,7 +258,7 @@ def _cramped(
         f"the {kinds[use.obstacle]} of {sizes[use.obstacle]:.2f} m, which has {straight[use.link]:.1f} m for "
         f"a straight run-up (at least {LEAST_RUN_UP:g} m are needed)"
         for use in route.links
-        if link_costs is not None and np.isinf(link_costs[use.link])
+        if np.isinf(link_costs[use.link])
     ]
 
 

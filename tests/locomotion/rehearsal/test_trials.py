@@ -138,8 +138,8 @@ def test_clearing_an_obstacle_without_a_way_on_behind_it_is_worth_less(monkeypat
 
 
 def at_a_pair(from_):
-    """One that has decided on its run-up to an edge, with another so close behind it that it takes off
-    again at once, for which it needs ``from_`` [m]."""
+    """A person in the run-up to an edge. Right behind it is a second one, so it takes off again at once. It
+    falls there unless it begins at least ``from_`` [m] before the edge."""
     first, second = Picky(0.0), Picky(from_)
     second.heights = (0.6, 0.8)
     human = Human(None, clearing=[first, second], rehearsals=0)

@@ -22,7 +22,8 @@ from navmesh.obstacles.rim_samples import RimSamples, renew_rim_samples, take_ri
 from navmesh.obstacles.rules import ObstacleRules
 from navmesh.rules import WalkRules
 from navmesh.surface.build import Grid, Window, find_cells, lay_grid, patch_around, reach_of, surface_of
-from navmesh.surface.renewal import renew_surface
+from navmesh.surface.differences import differing_window
+from navmesh.surface.renewal import cells_of_surface, renew_surface
 from navmesh.surface.strips import all_cells
 from navmesh.surface.surface import Surface
 
@@ -114,7 +115,10 @@ def renewed(
         wide = (window[0] - spare, window[1] - spare, window[2] + spare, window[3] + spare)
         wide = _clipped(wide, *grid.shape)
         fresh, around = find_cells(terrain, rules, grid, wide), patch_around(grid, wide)
-        surface, reach = renew_surface(built.surface, fresh, window, around, grid, MOST)
+        within = differing_window(cells_of_surface(built.surface), fresh, window, around, grid.shape[1])
+        if within is None:
+            continue
+        surface, reach = renew_surface(built.surface, fresh, within, around, grid, MOST)
         nodes = reach and renew_nodes(built.nodes, built.surface, surface, reach, rules.min_radius, MOST)
         if nodes is None:
             built, changes = _with_discs(rules, grid, surface), None

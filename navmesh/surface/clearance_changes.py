@@ -2,9 +2,11 @@
 
 The two passes of `navmesh.surface.clearance` are gone through again for a rectangle of columns. What the
 cells around it knew after each turn of a pass is recalled from before the change, by following their choices
-back to the place itself. If the cells along the rectangle's edge then know the same after each turn as they
-did before, and none of it comes from a list of blockers that has been found anew, nothing changes beyond, and
-all is bit for bit as if the passes had gone over the whole. If not, the rectangle grows on that side.
+back to the place itself. So the passes can be gone through as they were before, too. If the cells along the
+rectangle's edge know the same after each turn both times, and none of it comes from a list of blockers that
+has been found anew, nothing changes beyond, and all is bit for bit as if the passes had gone over the whole.
+If not, the rectangle grows on that side. In the end, the cells that know other things than before lie in a
+smaller rectangle, and what depends on clearances is renewed around that only.
 """
 
 from dataclasses import dataclass
@@ -23,7 +25,7 @@ from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["Renewed", "renew_clearance"]
 
-_MARGIN = 12
+_MARGIN = 24
 """Columns around a change that are looked at first."""
 _GROWTH = 0.5
 """Share of its extent by which the rectangle grows on a side where something changes beyond it."""
@@ -31,9 +33,13 @@ _GROWTH = 0.5
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Renewed:
-    """What is other than before in a rectangle of columns."""
+    """The cells of a rectangle of columns after a change, and what they know."""
 
     window: Window
+    """The rectangle."""
+    changed: Window
+    """Outside of these columns of it no cell is other than before, nor its clearance, nor the place that is
+    nearest to it; that place may have been carried there another way."""
     cells: LinkedCells
     """Of the rectangle; links that lead out of it are -1."""
     nearest: np.ndarray
@@ -66,16 +72,25 @@ def renew_clearance(
         shifted = tuple((np.array(window) - np.tile(outer[:2], 2)).tolist())
         at = Patch(around.side, around.left - patch.left, around.near - patch.near, around.nx, around.ny)
         cells, _ = splice(before, fresh, shifted, at, patch.ny)
-        disturbed, nearest, source, chosen = _swept(
-            cells.column_start, columns_of_all(cells.column_start), cells.storey, cells.list_cell,
-            cells.list_start, cells.blocker, patch, field, whole, first, inner, _guarded(inner, edge),
-            np.array(window),
+        was, now = (_swept(*_arrays(part), patch, field, whole, first, inner) for part in (before, cells))
+        disturbed, changed = _differences(
+            before.column_start, before.list_cell, *was[:2], cells.column_start, cells.list_cell, *now[:2],
+            patch, np.array(window), inner, _guarded(inner, edge),
         )  # fmt: skip
         if not disturbed.any():
-            return Renewed(rectangle, cells, nearest, source, chosen)
+            known, source, choice = now
+            reach = tuple(_grown(changed, np.ones(4, np.int64), edge).tolist())  # `settle_clearance` looks
+            return Renewed(rectangle, reach, cells, known[-1], source[-1], choice)  # one column farther
         extent = np.tile(inner[2:] - inner[:2], 2)
         inner = _grown(inner, np.where(disturbed, np.ceil(_GROWTH * extent), 0).astype(np.int64), edge)
     return None
+
+
+def _arrays(cells: LinkedCells) -> tuple[np.ndarray, ...]:
+    return (
+        cells.column_start, columns_of_all(cells.column_start), cells.storey, cells.list_cell,
+        cells.list_start, cells.blocker,
+    )  # fmt: skip
 
 
 def _grown(window: np.ndarray, by: np.ndarray, edge: np.ndarray) -> np.ndarray:
@@ -129,24 +144,20 @@ def _inside(patch, column, window):
 
 @allocating_kernel
 def _swept(
-    column_start, cell_column, storey, list_cell, list_start, blocker, patch,
-    old, whole, first, inner, guarded, window,
+    column_start, cell_column, storey, list_cell, list_start, blocker, patch, old, whole, first, inner
 ):  # fmt: skip
     """Both passes over the cells of ``patch``; those outside of ``inner`` know what they knew before.
+    ``first`` (columns,) is the first of a column's cells before.
 
-    ``first`` (columns,) is the first of a column's cells before, ``guarded`` is ``inner`` without the sides
-    beyond which there is nothing. Returns, for each side, whether the change
-    goes on beyond ``inner`` there, and what `Renewed` holds.
+    Returns what each cell knows after each turn (4, n, 2) float64, of which list that is (4, n) int32, see
+    `Renewed.source`, and the choices (n,) uint8.
     """
     cells = storey.shape[0]
     nearest, source = np.full((cells, 2), np.inf), np.full(cells, -1, np.int32)
     squared, choice, fixed = np.full(cells, np.inf), np.zeros(cells, np.uint8), np.empty(cells, np.bool_)
     known, known_source = np.full((4, cells, 2), np.inf), np.full((4, cells), -1, np.int32)
-    disturbed = np.zeros(4, np.bool_)
     hops = np.empty((64, 2), np.int64)
-    listed = np.full(cells, -1, np.int32)  # the list of each cell
-    for own in range(list_cell.shape[0]):
-        listed[list_cell[own]] = own
+    listed = _lists_by_cell(list_cell, cells)
     for c in range(cells):
         own = listed[c]
         column = cell_column[c]
@@ -159,33 +170,78 @@ def _swept(
                 x, y, origin, at, hops = _recalled(old, before, there, turn, whole, hops)
                 known[turn, c, 0], known[turn, c, 1] = x, y
                 known_source[turn, c] = _named(old, origin, at, column_start, listed, patch, whole)
-                if origin >= 0 and _inside(whole, at, window):
-                    _mark(disturbed, patch, column, guarded, 0)
         elif own >= 0:
             mx, my = middle_of(patch, column)
             x, y = nearest_in_list(blocker, list_start[own], list_start[own + 1], mx, my)
             nearest[c, 0], nearest[c, 1], squared[c], source[c] = x, y, x * x + y * y, own
-    if disturbed.any():
-        return disturbed, nearest, source, choice
     for turn in range(2):
         sweep(
             turn, column_start, cell_column, storey, nearest, squared, source, choice,
             patch.side, patch.nx, patch.ny, fixed, known, known_source,
         )  # fmt: skip
-    for c in range(cells):
-        column = cell_column[c]
-        if fixed[c] or not _at_edge(patch, column, guarded):
-            continue
-        before = first[column] + c - column_start[column]
-        there = _of_whole(patch, whole, column)
-        for turn in range(4):
-            x, y, origin, at, hops = _recalled(old, before, there, turn, whole, hops)
-            same = known[turn, c, 0] == x and known[turn, c, 1] == y
-            same &= known_source[turn, c] == _named(old, origin, at, column_start, listed, patch, whole)
-            same &= not (origin >= 0 and _inside(whole, at, window))
-            if not same:
-                _mark(disturbed, patch, column, guarded, 1)
-    return disturbed, nearest, source, choice
+    return known, known_source, choice
+
+
+@allocating_kernel
+def _lists_by_cell(list_cell, cells):
+    """(n,) int32: the list of each cell, or -1."""
+    listed = np.full(cells, -1, np.int32)
+    for own in range(list_cell.shape[0]):
+        listed[list_cell[own]] = own
+    return listed
+
+
+@allocating_kernel
+def _differences(
+    was_start, was_list, was_known, was_source, start, list_cell, known, source,
+    patch, window, inner, guarded,
+):  # fmt: skip
+    """Where the cells of ``patch`` know other things than they did, after a change within ``window``.
+
+    ``guarded`` is ``inner`` without the sides beyond which there is nothing. Returns for each side whether
+    the change goes on beyond ``inner`` there, and the least window that holds all columns
+    that are other than before.
+    """
+    disturbed, box = np.zeros(4, np.bool_), window.copy()
+    listed = _lists_by_cell(list_cell, known.shape[1])
+    column_of_list = np.empty(was_list.shape[0], np.int64)
+    at = 0
+    for own in range(was_list.shape[0]):
+        while was_start[at + 1] <= was_list[own]:
+            at += 1
+        column_of_list[own] = at
+    for column in range(start.shape[0] - 1):
+        fixed = not _inside(patch, column, inner)
+        cells = start[column + 1] - start[column]
+        same = cells == was_start[column + 1] - was_start[column]
+        steady = same  # after every turn, and by nothing that has changed
+        for k in range(cells if same else 0):
+            a, b = was_start[column] + k, start[column] + k
+            for turn in range(4):
+                own = np.int64(was_source[turn, a])
+                alike = (
+                    was_known[turn, a, 0] == known[turn, b, 0] and was_known[turn, a, 1] == known[turn, b, 1]
+                )
+                if own >= 0:
+                    at = column_of_list[own]
+                    if _inside(patch, at, window):
+                        alike = False
+                    elif not fixed:
+                        own = listed[start[at] + was_list[own] - was_start[at]]
+                if not fixed:
+                    alike &= own == source[turn, b]
+                steady &= alike
+                if turn == 3:
+                    same &= alike
+        if not steady and (fixed or _at_edge(patch, column, guarded)):
+            _mark(disturbed, patch, column, guarded, 0 if fixed else 1)
+        if not same:
+            ix = column // patch.ny
+            iy = column - ix * patch.ny + patch.near
+            ix += patch.left
+            box[0], box[1] = min(box[0], ix), min(box[1], iy)
+            box[2], box[3] = max(box[2], ix + 1), max(box[3], iy + 1)
+    return disturbed, box
 
 
 @kernel(forceinline=True)

@@ -72,7 +72,7 @@ def renew_surface(
         list_cell=cells.list_cell, list_start=cells.list_start, blocker=cells.blocker,
     )  # fmt: skip
     settle_window(surface.field, surface.column_start, np.array(new.window))
-    return surface, new.window
+    return surface, new.changed
 
 
 def cells_in(surface: Surface, window: Window) -> tuple[Any, np.ndarray]:

@@ -48,8 +48,20 @@ def test_of_rocks_on_a_plain(before, after):
     np.testing.assert_array_equal(found.choice, new.choice[inside])
     settled = new.clearance[inside] >= 2.0 * grid.resolution
     np.testing.assert_array_equal(found.nearest[settled], new.nearest[inside][settled])
-    # beyond the window nothing is other than before
+    # beyond it nothing is other than before; nor is what is known beyond what has changed
     ox, oy = np.divmod(old.cell_column, grid.shape[1])
-    beyond = ~((ox >= left) & (ox < right) & (oy >= near) & (oy < far))
-    np.testing.assert_array_equal(old.clearance[beyond], new.clearance[~inside])
-    np.testing.assert_array_equal(old.choice[beyond], new.choice[~inside])
+    for window, names in ((found.window, ("clearance", "choice")), (found.changed, ("clearance", "nearest"))):
+        left, near, right, far = window
+        beyond = ~((ox >= left) & (ox < right) & (oy >= near) & (oy < far))
+        outside = ~((ix >= left) & (ix < right) & (iy >= near) & (iy < far))
+        for name in names:
+            np.testing.assert_array_equal(getattr(old, name)[beyond], getattr(new, name)[outside])
+    # and that is no more than there is
+    apart = np.zeros(grid.shape, bool)
+    one, other = (dict(zip(s.cell_column.tolist(), s.nearest.tolist(), strict=True)) for s in (old, new))
+    for column in one.keys() | other.keys():
+        apart.flat[column] = one.get(column) != other.get(column)
+    along, across = np.nonzero(apart.any(axis=1))[0], np.nonzero(apart.any(axis=0))[0]
+    least = (min(inner[0], along[0]), min(inner[1], across[0]), max(inner[2], along[-1] + 1),
+             max(inner[3], across[-1] + 1))  # fmt: skip
+    assert np.abs(np.subtract(found.changed, least)).max() <= 2

@@ -72,11 +72,13 @@ class Composition:
         return load_preconditions() if self.preconditions is None else self.preconditions
 
     def odds(self, obstacle: ObstacleAhead, room: float) -> float | None:
-        """Chance, 0 to 1, that it clears ``obstacle`` from where it is; None if nothing is known. ``room``:
-        [m] of way before the obstacle."""
+        """Chance, 0 to 1, that it clears ``obstacle`` from where it is: none where that is beyond what its
+        skill has learned; None if nothing is known. ``room``: [m] of way before the obstacle."""
         known = self.precondition(self._person.run_up.skill_for(obstacle))
         if known is None:
             return None
+        if not known.covers(obstacle.size):
+            return 0.0
         if self._in_run_up and obstacle is self._person.run_up.ahead:
             choice = self._person.run_up.plan[[FARTHER, FASTER]]
             return float(known.odds(self._described(obstacle, choice[None]))[0])
@@ -118,11 +120,18 @@ class Composition:
         odds = self.odds(obstacle, obstacle.arc_length - person.run_up.passed)
         if odds is None or odds >= _TO_SET_OFF * self.needs:
             return True
-        what = f"the {obstacle.affordance} of {obstacle.size:.2f} m"
         person.events.append(TurnedAway(person.time, person.point, obstacle.affordance, obstacle.size, odds))
-        reason = f"its odds of clearing {what} are {100.0 * odds:.0f} %"
-        person.end("stuck", GotStuck(person.time, person.point, reason=reason))
+        person.end("stuck", GotStuck(person.time, person.point, reason=self._why_not(obstacle, odds)))
         return False
+
+    def _why_not(self, obstacle: ObstacleAhead, odds: float) -> str:
+        """Why it does not run at ``obstacle``, with these ``odds``."""
+        what = f"the {obstacle.affordance} of {obstacle.size:.2f} m"
+        known = self.precondition(self._person.run_up.skill_for(obstacle))
+        if known is None or known.covers(obstacle.size):
+            return f"its odds of clearing {what} are {100.0 * odds:.0f} %"
+        low, high = known.heights
+        return f"{what} is beyond the {low:.2f} to {high:.2f} m that it has learned"
 
     def choose_take_off(self) -> None:
         """Just after a step of a run-up has begun: take the best variation of it, or turn away."""
@@ -134,7 +143,7 @@ class Composition:
             return
         present = person.run_up.plan[[FARTHER, FASTER]]
         choices = np.vstack([present, RUN_UPS])
-        odds = known.odds(self._described(obstacle, choices))
+        odds = known.odds(self._described(obstacle, choices)) * known.covers(obstacle.size)
         best = int(np.argmax(odds))
         if odds[best] > odds[0] + _BETTER:
             person.run_up.vary(choices[best], person.control, person.run_up.rehearsed)

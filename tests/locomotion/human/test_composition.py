@@ -13,6 +13,7 @@ from locomotion.gaits.run.skill import load_run_skill
 from locomotion.preconditions.precondition import SLOW_DOWN, load_preconditions
 from locomotion.skills.course import make_course
 from locomotion.skills.learned_skill import LearnedSkill
+from locomotion.training.preconditions.sampling import WiderSkill
 
 
 def jump_of(human):
@@ -70,6 +71,25 @@ def test_bad_odds_in_the_run_up_break_it_off_for_another_one():
 def test_who_dares_takes_off(odds, bravery):
     human = goes(odds, bravery)
     assert of(TookOff, human) and of(Cleared, human) and not of(TurnedAway, human)
+
+
+@pytest.mark.parametrize("running", [0.0, 3.0])
+def test_nobody_takes_a_drop_that_is_higher_than_what_was_learned(running):
+    course = make_course([("drop", 2.5, 0.0)], [10.0])
+    ground = Ground.from_arrays(course.vertices, course.faces)
+    wider = [WiderSkill(each) for each in Human(ground, rehearsals=0).clearing]
+    human, known = Human(ground, clearing=wider, rehearsals=0), load_preconditions()
+    human.composition.preconditions = {**known, "drop": always(0.99, known["drop"])}
+    human.bravery = 0.9
+    human.reset(course.path[0], 0.0, running)
+    human.follow(course.path, 3.5, course.obstacles)
+    assert human.composition.odds(course.obstacles[0], 10.0) == 0.0
+    while human.status in MOVING and human.time < 20.0:
+        human.tick()
+    assert of(TurnedAway, human)[0].odds == 0.0 and not of(TookOff, human)
+    if not running:
+        reason = "the drop of 2.50 m is beyond the 0.90 to 2.00 m that it has learned"
+        assert of(GotStuck, human)[0].reason == reason
 
 
 def test_bravery_is_a_share():

@@ -39,6 +39,11 @@ def test_one_of_another_skill_is_refused(tmp_path):
         load_precondition(tmp_path / "none.npz")
 
 
+def test_only_what_was_learned_is_covered():
+    known = load_preconditions()["drop"]
+    assert [known.covers(size) for size in (0.8, 0.9, 2.0, 2.1)] == [False, True, True, False]
+
+
 @pytest.mark.parametrize("affordance", ["jump", "vault", "gap"])
 def test_what_is_far_beyond_a_skill_is_nearly_hopeless(affordance):
     known = load_preconditions()[affordance]

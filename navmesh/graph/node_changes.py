@@ -23,6 +23,8 @@ __all__ = ["Nodes", "RenewedNodes", "boxes_of", "hull", "renew_nodes"]
 
 _SEEN = 4
 """Columns around a cell on which it depends what disc it gets."""
+_FARTHER = 16
+"""Columns by which the rectangle grows farther than it has to: other discs often make others beyond."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,7 +71,8 @@ def renew_nodes(
         beyond = (clipped[:, :2] < area[:2]).any(axis=1) | (clipped[:, 2:] > area[2:]).any(axis=1)
         if not beyond.any():
             return _numbered(area, changed, chosen, old, before, surface)
-        area = hull(area, chosen.boxes[beyond], 0, surface)
+        wider = hull(area, chosen.boxes[beyond], 0, surface)
+        area = hull(wider + _FARTHER * np.sign(wider - area), np.empty((0, 4), np.int64), 0, surface)
     return None
 
 

@@ -69,21 +69,35 @@ def renew_clearance(
         patch = Patch(whole.side, *outer[:2].tolist(), *(outer[2:] - outer[:2]).tolist())
         rectangle = tuple(outer.tolist())
         before, first = take(old, rectangle, whole.ny)
-        shifted = tuple((np.array(window) - np.tile(outer[:2], 2)).tolist())
-        at = Patch(around.side, around.left - patch.left, around.near - patch.near, around.nx, around.ny)
-        cells, _ = splice(before, fresh, shifted, at, patch.ny)
-        was, now = (_swept(*_arrays(part), patch, field, whole, first, inner) for part in (before, cells))
-        disturbed, changed = _differences(
-            before.column_start, before.list_cell, *was[:2], cells.column_start, cells.list_cell, *now[:2],
-            patch, np.array(window), inner, _guarded(inner, edge),
-        )  # fmt: skip
+        around_it = patch, field, whole, first, inner, np.array(window), _guarded(inner, edge)
+        disturbed, *was = _swept(*_arrays(before), *around_it)
         if not disturbed.any():
-            known, source, choice = now
-            reach = tuple(_grown(changed, np.ones(4, np.int64), edge).tolist())  # `settle_clearance` looks
-            return Renewed(rectangle, reach, cells, known[-1], source[-1], choice)  # one column farther
+            cells, _ = splice(before, fresh, _seen_from(patch, window), _patch_from(patch, around), patch.ny)
+            _, *now = _swept(*_arrays(cells), *around_it)
+            disturbed, changed = _differences(
+                before.column_start, before.list_cell, *was[:2],
+                cells.column_start, cells.list_cell, *now[:2],
+                patch, inner, np.array(window), _guarded(inner, edge),
+            )  # fmt: skip
+            if not disturbed.any():
+                known, source, choice = now
+                reach = _grown(
+                    changed, np.ones(4, np.int64), edge
+                )  # `settle_clearance` looks so much farther
+                return Renewed(rectangle, tuple(reach.tolist()), cells, known[-1], source[-1], choice)
         extent = np.tile(inner[2:] - inner[:2], 2)
         inner = _grown(inner, np.where(disturbed, np.ceil(_GROWTH * extent), 0).astype(np.int64), edge)
     return None
+
+
+def _seen_from(patch: Patch, window: Window) -> Window:
+    """A window of the grid, counted from the corner of ``patch``."""
+    left, near, right, far = window
+    return left - patch.left, near - patch.near, right - patch.left, far - patch.near
+
+
+def _patch_from(patch: Patch, other: Patch) -> Patch:
+    return Patch(other.side, other.left - patch.left, other.near - patch.near, other.nx, other.ny)
 
 
 def _arrays(cells: LinkedCells) -> tuple[np.ndarray, ...]:
@@ -144,18 +158,21 @@ def _inside(patch, column, window):
 
 @allocating_kernel
 def _swept(
-    column_start, cell_column, storey, list_cell, list_start, blocker, patch, old, whole, first, inner
+    column_start, cell_column, storey, list_cell, list_start, blocker,
+    patch, old, whole, first, inner, window, guarded,
 ):  # fmt: skip
     """Both passes over the cells of ``patch``; those outside of ``inner`` know what they knew before.
-    ``first`` (columns,) is the first of a column's cells before.
 
-    Returns what each cell knows after each turn (4, n, 2) float64, of which list that is (4, n) int32, see
-    `Renewed.source`, and the choices (n,) uint8.
+    ``first`` (columns,) is the first of a column's cells before, ``guarded`` is ``inner`` without the sides
+    beyond which there is nothing. Returns, for each side, whether cells beyond ``inner`` there knew lists
+    of the ``window`` that has been found anew; and where none did, what each cell knows after each turn
+    (4, n, 2) float64, of which list that is (4, n) int32, see `Renewed.source`, and the choices (n,) uint8.
     """
     cells = storey.shape[0]
     nearest, source = np.full((cells, 2), np.inf), np.full(cells, -1, np.int32)
     squared, choice, fixed = np.full(cells, np.inf), np.zeros(cells, np.uint8), np.empty(cells, np.bool_)
     known, known_source = np.full((4, cells, 2), np.inf), np.full((4, cells), -1, np.int32)
+    disturbed = np.zeros(4, np.bool_)
     hops = np.empty((64, 2), np.int64)
     listed = _lists_by_cell(list_cell, cells)
     for c in range(cells):
@@ -170,16 +187,19 @@ def _swept(
                 x, y, origin, at, hops = _recalled(old, before, there, turn, whole, hops)
                 known[turn, c, 0], known[turn, c, 1] = x, y
                 known_source[turn, c] = _named(old, origin, at, column_start, listed, patch, whole)
+                if origin >= 0 and _inside(whole, at, window):
+                    _mark(disturbed, patch, column, guarded, 0)
         elif own >= 0:
             mx, my = middle_of(patch, column)
             x, y = nearest_in_list(blocker, list_start[own], list_start[own + 1], mx, my)
             nearest[c, 0], nearest[c, 1], squared[c], source[c] = x, y, x * x + y * y, own
-    for turn in range(2):
-        sweep(
-            turn, column_start, cell_column, storey, nearest, squared, source, choice,
-            patch.side, patch.nx, patch.ny, fixed, known, known_source,
-        )  # fmt: skip
-    return known, known_source, choice
+    if not disturbed.any():
+        for turn in range(2):
+            sweep(
+                turn, column_start, cell_column, storey, nearest, squared, source, choice,
+                patch.side, patch.nx, patch.ny, fixed, known, known_source,
+            )  # fmt: skip
+    return disturbed, known, known_source, choice
 
 
 @allocating_kernel
@@ -194,14 +214,11 @@ def _lists_by_cell(list_cell, cells):
 @allocating_kernel
 def _differences(
     was_start, was_list, was_known, was_source, start, list_cell, known, source,
-    patch, window, inner, guarded,
+    patch, inner, window, guarded,
 ):  # fmt: skip
-    """Where the cells of ``patch`` know other things than they did, after a change within ``window``.
-
-    ``guarded`` is ``inner`` without the sides beyond which there is nothing. Returns for each side whether
-    the change goes on beyond ``inner`` there, and the least window that holds all columns
-    that are other than before.
-    """
+    """Where the cells of ``patch`` know other things than they did, after a change within ``window``: for
+    each side whether the change goes on beyond ``inner`` there, and the least window that holds that change
+    and all columns in which something else is known in the end."""
     disturbed, box = np.zeros(4, np.bool_), window.copy()
     listed = _lists_by_cell(list_cell, known.shape[1])
     column_of_list = np.empty(was_list.shape[0], np.int64)
@@ -211,30 +228,28 @@ def _differences(
             at += 1
         column_of_list[own] = at
     for column in range(start.shape[0] - 1):
-        fixed = not _inside(patch, column, inner)
+        if not _inside(patch, column, inner):
+            continue
         cells = start[column + 1] - start[column]
         same = cells == was_start[column + 1] - was_start[column]
-        steady = same  # after every turn, and by nothing that has changed
+        steady = same  # after every turn
         for k in range(cells if same else 0):
             a, b = was_start[column] + k, start[column] + k
             for turn in range(4):
-                own = np.int64(was_source[turn, a])
-                alike = (
+                same = (
                     was_known[turn, a, 0] == known[turn, b, 0] and was_known[turn, a, 1] == known[turn, b, 1]
                 )
+                own = np.int64(was_source[turn, a])
                 if own >= 0:
                     at = column_of_list[own]
-                    if _inside(patch, at, window):
-                        alike = False
-                    elif not fixed:
-                        own = listed[start[at] + was_list[own] - was_start[at]]
-                if not fixed:
-                    alike &= own == source[turn, b]
-                steady &= alike
-                if turn == 3:
-                    same &= alike
-        if not steady and (fixed or _at_edge(patch, column, guarded)):
-            _mark(disturbed, patch, column, guarded, 0 if fixed else 1)
+                    same &= not _inside(patch, at, window)
+                    own = listed[start[at] + was_list[own] - was_start[at]] if same else own
+                same &= own == source[turn, b]
+                steady &= same
+            if not same:
+                break
+        if not steady and _at_edge(patch, column, guarded):
+            _mark(disturbed, patch, column, guarded, 1)
         if not same:
             ix = column // patch.ny
             iy = column - ix * patch.ny + patch.near

@@ -81,7 +81,8 @@ class FloorStore:
 
     def places(self, column_start: np.ndarray, columns: np.ndarray, cells: np.ndarray) -> np.ndarray:
         """Where in the pool ``cells`` (k,) of ``columns`` (k,) are."""
-        return cells + self.shift(column_start)[columns >> _SHIFT]
+        block = columns >> _SHIFT
+        return cells + self.at[block] - column_start[block << _SHIFT]
 
     def unpacked(self, column_start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The height (n,) and the gradient (n, 2) of all cells."""

@@ -73,9 +73,28 @@ def _merge(
     to_start, to_target, to_width = np.zeros(nodes + 1, np.int32), np.empty(most, np.int32), np.empty(most)
     to_gate, to_cells = np.empty((most, 2)), np.empty((most, 2), np.int32)
     count = 0
-    for i in range(nodes):
+    i = 0
+    while i < nodes:
         fresh, last = new_start[i], new_start[i + 1]
         j = was[i]
+        run = 0  # nodes that keep all their edges, in a row
+        while (
+            i + run < nodes and was[i + run] == j + run >= 0 and not touched[j + run]
+            and new_start[i + run + 1] == fresh
+        ):  # fmt: skip
+            run += 1
+            to_start[i + run] = count + start[j + run] - start[j]
+        if run > 0:
+            first, beyond = start[j], start[j + run]
+            size = beyond - first
+            to_width[count : count + size] = width[first:beyond]
+            to_gate[count : count + size] = gate[first:beyond]
+            to_cells[count : count + size] = cells[first:beyond]
+            for e in range(size):
+                to_target[count + e] = number[target[first + e]]
+            count += size
+            i += run
+            continue
         for e in range(start[j], start[j + 1]) if j >= 0 else range(0):
             if touched[j]:
                 key = (np.int64(j) << 32) | target[e]
@@ -96,5 +115,6 @@ def _merge(
             to_gate[count], to_cells[count] = new_gate[fresh], new_cells[fresh]
             count += 1
             fresh += 1
-        to_start[i + 1] = count
+        i += 1
+        to_start[i] = count
     return to_start, to_target[:count], to_width[:count], to_gate[:count], to_cells[:count]

@@ -18,9 +18,10 @@ from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
 
-__all__ = ["DOORS", "SCRATCH", "door_rows", "make_doors", "make_scratch", "net_of"]
+__all__ = ["DOOR", "DOORS", "SCRATCH", "door_rows", "make_doors", "make_scratch", "net_of"]
 
-_DOOR = np.dtype([("portal", "f8", 6), ("portal_cell", "i4", 2), ("target", "i4"), ("", "i4")])
+DOOR = np.dtype([("portal", "f8", 6), ("portal_cell", "i4", 2), ("target", "i4"), ("", "i4")])
+"""A row of `DOORS.doors`."""
 _LABEL = np.dtype(
     [
         ("cost", "f8"), ("total", "f8"), ("apex", "f8", 3), ("left", "f8", 3), ("right", "f8", 3),
@@ -35,7 +36,7 @@ DOORS = BundleType(
     radius=float64,
     weighted=int64,
     start=int32[::1],
-    doors=rows(_DOOR),
+    doors=rows(DOOR),
     lens=float64[:, ::1],
     block=float64[:, ::1],
     head=int32[::1],
@@ -159,7 +160,7 @@ def _net(graph: "NodeGraph") -> Any:
 
 def door_rows(target: np.ndarray, portal: np.ndarray, portal_cell: np.ndarray) -> np.ndarray:
     """The doors' table of `DOORS` from its columns."""
-    return _table(_DOOR, portal=portal, portal_cell=portal_cell, target=target)
+    return _table(DOOR, portal=portal, portal_cell=portal_cell, target=target)
 
 
 def make_doors(

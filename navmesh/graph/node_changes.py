@@ -119,8 +119,8 @@ def _choose_in(area: np.ndarray, old: Nodes, before: Surface, surface: Surface, 
     was[~made] = given[-1 - maker[~made]]
     whole_maker[made], whole_maker[~made] = where[maker[made]], given_maker[-1 - maker[~made]]
     was[made] = _found_again(
-        (_spots(old.maker[there], before), _spots(old.cell[there], before), old.place[there]),
-        (_spots(whole_maker[made], surface), _spots(whole_cell[made], surface), place[made]),
+        (*_turns(old.maker[there], before), _spots(old.cell[there], before), old.place[there]),
+        (*_turns(whole_maker[made], surface), _spots(whole_cell[made], surface), place[made]),
         there,
     )
     changed = np.concatenate([old.place[np.setdiff1d(there, was)], place[was < 0]])
@@ -174,13 +174,21 @@ def _numbered(
 
 
 def _found_again(old: tuple, new: tuple, names: np.ndarray) -> np.ndarray:
-    """For each new node its name before, or -1: made at the same spot, in the same spot and alike."""
+    """For each new node its name before, or -1: made at the same spot and at the same turn, in the same spot
+    and alike."""
     if not len(names):
         return np.full(len(new[0]), -1)
     by = np.argsort(old[0])
     at = by[np.minimum(np.searchsorted(old[0][by], new[0]), len(by) - 1)]
-    same = (old[0][at] == new[0]) & (old[1][at] == new[1]) & (old[2][at] == new[2]).all(axis=1)
+    same = (old[-1][at] == new[-1]).all(axis=1)
+    for one, other in zip(old[:-1], new[:-1], strict=True):
+        same &= one[at] == other
     return np.where(same, names[at], -1)
+
+
+def _turns(cells: np.ndarray, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
+    """The `_spots` of ``cells``, and (k,) int64 the steps of clearance in which they have their turn."""
+    return _spots(cells, surface), (surface.clearance[cells] / grain_of(surface)).astype(np.int64)
 
 
 def _spots(cells: np.ndarray, surface: Surface) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.graph.kernel_arrays import door_rows, make_doors
+from navmesh.graph.kernel_arrays import make_doors
 from navmesh.graph.part_changes import tiles_for
 from navmesh.graph.parts import leaps_by_part, parts_of_nodes
 from navmesh.graph.portal_changes import portals_for
@@ -57,12 +57,7 @@ def checked_skills(skills: Mapping[str, tuple[float, float]] | None) -> tuple:
 def portals_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
     """The doors open to a body of ``radius`` in CSR form: start (m + 1,), doors (p,) as of `door_rows`, lens
     (p, 2), block (p, 4); see `DOORS`."""
-
-    def make() -> tuple[np.ndarray, ...]:
-        start, target, portal, cells, lens, block = portals_for(graph, radius)
-        return start, door_rows(target, portal, cells), lens, block
-
-    return recent(graph.cache, "portals", radius, make)
+    return recent(graph.cache, "portals", radius, lambda: portals_for(graph, radius))
 
 
 def _checked_costs(graph: "NodeGraph", costs: Any) -> np.ndarray | None:

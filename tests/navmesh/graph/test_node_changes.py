@@ -1,10 +1,12 @@
 """Nodes that are chosen anew around a change are those of the whole level; the others keep their places."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from navmesh import NodeGraph
-from navmesh.graph.node_changes import renew_nodes
+from navmesh.graph.node_changes import Nodes, renew_nodes
 from tests.navmesh.shapes import box, plane, terrain
 
 
@@ -40,3 +42,26 @@ def test_a_pillar_moves(seed):
     assert 0 < len(stay) < len(old)
     np.testing.assert_array_equal(nodes.place[stay], found.nodes.place[found.number[stay]])
     assert (np.diff(found.number[stay]) > 0).all()  # nobody overtakes anybody
+
+
+def test_a_disc_whose_turn_has_changed_is_new():
+    graph = NodeGraph.build(plain((4.1, 7.3), (12.2, 6.1), (15.5, 13.4)), obstacle_rules=None)
+    assert graph.kept_build is not None
+    nodes, surface = graph.kept_build.built.nodes, graph.surface
+    late, early = 60, 40  # before, the cell that made one of the discs had its turn sooner
+    clearance = surface.clearance.copy()
+    clearance[nodes.maker[late]] = surface.clearance[nodes.maker[early - 1]] - 1e-9
+    order = np.concatenate([np.arange(early), [late], np.delete(np.arange(early, len(graph)), late - early)])
+    rank = np.append(np.argsort(order), -1).astype(np.int32)
+    before = Nodes(
+        nodes.cell[order], nodes.place[order], nodes.maker[order], rank[nodes.label], nodes.position[order]
+    )
+    ix, iy = np.divmod(int(surface.columns(nodes.maker[late : late + 1])[0]), surface.shape[1])
+    window = ix - 1, iy - 1, ix + 2, iy + 2
+    least = graph.rules.min_radius
+    found = renew_nodes(before, replace(surface, clearance=clearance), surface, window, least, 1.0)
+    assert found is not None
+    for name in ("cell", "place", "maker", "label"):
+        np.testing.assert_array_equal(getattr(found.nodes, name), getattr(nodes, name), name)
+    assert found.number[early] == -1
+    assert (np.diff(found.number[found.number >= 0]) > 0).all()

@@ -43,15 +43,15 @@ from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["bear_on", "begin_getting_up", "get_up_tick", "lies_on_front", "rise_on"]
 
-_STILL, _LIMP_LEAST, _LIMP_MOST = 0.25, 0.3, 1.5  # [m/s], [s]
+_STILL, _LIMP_LEAST, _LIMP_MOST = 0.4, 0.2, 1.5  # [m/s], [s]
 _GATHER_TIME, _SWING_TIME, _FOLLOW_TIME, _REACH_TIME, _SETTLE_TIME, _TUCK_TIME, _RISE_TIME = (
     0.6,
-    0.35,
+    0.37,
     0.5,
-    0.7,
-    0.15,
-    1.3,
-    1.2,
+    0.5,
+    0.1,
+    0.8,
+    1.0,
 )  # [s]
 _ROLLS, _SPREAD_TIME = 0.4, 0.3  # slope on which a limp body rolls down; [s]
 _STEADY, _BEARS, _STEADY_MOST = 0.15, 20.0, 8.0  # [m/s], [N] of each limb: it has come to rest on them; [s]
@@ -97,8 +97,8 @@ _REACH = _posture(
     hip_abduction=20,
 )  # fmt: skip
 _TUCK = _posture(
-    shoulder_flexion=35, shoulder_abduction=70, shoulder_rotation=-20, elbow_flexion=80, hip_flexion=80,
-    hip_abduction=35, knee_flexion=100, ankle_flexion=20, toe_extension=40, neck_pitch=-20,
+    shoulder_flexion=35, shoulder_abduction=70, shoulder_rotation=-20, elbow_flexion=80, hip_flexion=115,
+    hip_abduction=40, knee_flexion=135, ankle_flexion=20, toe_extension=40, neck_pitch=-20,
 )  # fmt: skip
 
 

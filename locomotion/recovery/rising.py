@@ -41,18 +41,19 @@ _GATHERED = {
     "foot_behind": -0.10,
     "foot_slope": 0.0,
     "hand_ahead": 0.27,
-    "height": 0.45,
+    "height": 0.40,
     "foot_out": 0.14,
     "curve": 0.4,
     "arm": 0.6,
+    "pause": 0.03,
 }
 _HOMES = np.array(list(HOMES.values()))
 _CLOSE = np.array([_GATHERED.get(name, value) for name, value in HOMES.items()])
-_RISE_TIME = 1.4  # [s]
-_HANDED_OVER = 0.85  # share of that after which the walk takes over
-_BEHIND, _AT_REST = -0.10, 0.3  # [m] of the feet ahead of the body, [m/s]: it can begin to rise
+_SHIFT_TIME, _RISES_AFTER, _RISE_TIME = 0.15, 0.05, 1.1  # [s]
+_HANDED_OVER = 0.95  # share of that after which the walk takes over
+_BEHIND, _AT_REST = -0.15, 0.5  # [m] of the feet ahead of the body, [m/s]: it can begin to rise
 _GATHERS, _ROUND = 5.0, 9.0  # [s] that the feet try to come under the body, until they try again
-_OVER = 0.03  # [m] of the centre of mass ahead of the balls, below which the hands let go
+_OVER = 0.05  # [m] of the centre of mass ahead of the balls, below which the hands let go
 _HIPS, _LEAN = 0.80, 0.12  # [m] of the hips above the soles, [rad] at the end
 _SOLE_BACK = 0.06  # [m] from the ball back to where the weight is to be
 _WAIST, _CHEST, _ = WAIST_CHEST_NECK
@@ -115,8 +116,8 @@ def rise_tick(memory, qpos, ctrl):
         memory[GATHERING] += CONTROL_DT
         if memory[GATHERING] >= _GATHERS:  # the weight does not come over the feet
             memory[MODE] = BORNE
-    shift = clamp(memory[MODE_CLOCK] / 0.3, 0.0, 1.0)
-    up = clamp((memory[MODE_CLOCK] - 0.2) / _RISE_TIME, 0.0, 1.0)
+    shift = clamp(memory[MODE_CLOCK] / _SHIFT_TIME, 0.0, 1.0)
+    up = clamp((memory[MODE_CLOCK] - _RISES_AFTER) / _RISE_TIME, 0.0, 1.0)
     up = up * up * (3.0 - 2.0 * up)
     for k in range(2):
         memory[LOADS.start + k] = 1.0 - shift
@@ -168,4 +169,4 @@ def rise_tick(memory, qpos, ctrl):
 @kernel
 def stands(memory):
     """Whether the body has come up."""
-    return memory[MODE_CLOCK] > 0.2 + _HANDED_OVER * _RISE_TIME
+    return memory[MODE_CLOCK] > _RISES_AFTER + _HANDED_OVER * _RISE_TIME

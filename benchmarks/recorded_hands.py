@@ -67,7 +67,7 @@ def _watched(
             break
 
 
-def _hand(places: NDArray[np.float64], side: int, size: float) -> NDArray[np.float64]:
+def _hand(places: NDArray[np.float64], side: float, size: float) -> NDArray[np.float64]:
     """(3,) the point of a hand [m]."""
     place = places[person_figure().bodies.index("left_hand" if side > 0 else "right_hand")]
     w, v, point = place[3], place[4:], size * np.array(HAND_POINT)

@@ -25,7 +25,7 @@ from locomotion.ground.ground import Ground
 from locomotion.quadruped import layout as at
 from locomotion.quadruped.advance import advance_all
 from locomotion.quadruped.body import Body
-from locomotion.quadruped.body_on_path import front_of, root_behind, wanted_pose, wrap
+from locomotion.quadruped.body_on_path import root_behind, wanted_pose, wrap
 from locomotion.quadruped.idle import habits
 from locomotion.quadruped.motion import DT, begin_stop, stop_length
 from locomotion.quadruped.pool import Pool
@@ -138,9 +138,8 @@ class Herd:
         st[at.TOUCHDOWN_NOW : at.TOUCHDOWN_NOW + 4] = gait[at.TOUCHDOWN : at.TOUCHDOWN + 4]
         st[at.HABITS : at.HABITS + 4] = habits(seed, place, yaw)
         st[at.CLOCK], st[at.BREATH], st[at.CHORD] = st[at.HABITS], st[at.HABITS + 1], 1.0
-        st[at.FRONT_X], st[at.FRONT_Y] = front_of(
-            place[0], place[1], yaw, 0.0, float(body.spine.bones), body.spine.bone_length
-        )
+        x, y, z = place.tolist()
+        st[at.FRONT_X], st[at.FRONT_Y] = Place(x, y, z, yaw).front(body)
         st[at.CHEST] = yaw
         self._stand(index)
 

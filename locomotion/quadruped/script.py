@@ -100,12 +100,8 @@ def out_of_flex(body: Body, place: Place, facing: float) -> Script:
     bend = place.bend * (1.0 - share)
     turn = wrap(facing - place.yaw)
     yaw = place.yaw + share * turn
-    ahead = np.array(
-        [
-            front_of(0.0, 0.0, a, b, float(body.spine.bones), body.spine.bone_length)
-            for a, b in zip(yaw, bend, strict=True)
-        ]
-    )
+    turning = zip(yaw.tolist(), bend.tolist(), strict=True)
+    ahead = np.array([Place(0.0, 0.0, 0.0, *each).front(body) for each in turning])
     seconds = 1.9 * max(abs(turn), abs(place.bend) * body.spine.bones) / _BEND_SPEED
     return make_script(front_x - ahead[:, 0], front_y - ahead[:, 1], place.z, yaw, bend, seconds)
 

@@ -29,7 +29,7 @@ class HandHold:
     """The hand of ``side`` (-1 right, +1 left) rests on the top of an obstacle from ``first`` to ``last`` [s]
     of a clip."""
 
-    side: int
+    side: float
     first: float
     last: float
 
@@ -40,8 +40,8 @@ def holds_of(
     """Of a clip: ``poses`` (n, 46) at ``times`` (n,) [s]; ``obstacle``: its edge, height and depth [m]."""
     edge, height, depth = obstacle
     found = []
-    for side in (-1, 1):
-        hand = np.array([hand_place(pose, float(side)) for pose in poses])
+    for side in (-1.0, 1.0):
+        hand = np.array([hand_place(pose, side) for pose in poses])
         speed = np.linalg.norm(np.gradient(hand, times, axis=0), axis=1)
         rests = (speed < _SLOW) & (np.abs(hand[:, 2] - height) < _NEAR)
         rests &= (hand[:, 0] > edge - _BESIDE) & (hand[:, 0] < edge + depth + _BESIDE)
@@ -51,31 +51,31 @@ def holds_of(
     return tuple(found)
 
 
-def hand_of(pose: NDArray[np.float64], side: int, size: float) -> NDArray[np.float64]:
+def hand_of(pose: NDArray[np.float64], side: float, size: float) -> NDArray[np.float64]:
     """(3,) [m] where the hand of ``side`` of a figure in ``pose`` (46,) is."""
-    return pose[:3] + size * (hand_place(pose, float(side)) - pose[:3])
+    return pose[:3] + size * (hand_place(pose, side) - pose[:3])
 
 
 def with_hand_at(
-    pose: NDArray[np.float64], side: int, point: NDArray[np.float64], share: float, size: float = 1.0
+    pose: NDArray[np.float64], side: float, point: NDArray[np.float64], share: float, size: float = 1.0
 ) -> NDArray[np.float64]:
     """``pose`` (46,) of a figure of a ``size``, with the arm of ``side`` turned so that its hand lies on
     ``point`` (3,) [m], or by a ``share`` of that, 0 to 1. Where the arm is too short the body comes nearer.
     """
     target = point + np.array([0.0, 0.0, size * HAND_RADIUS])
     target = pose[:3] + (target - pose[:3]) / size  # as one of the usual size would have it, about its pelvis
-    first = 7 + ARM_START[(1 + side) // 2]
-    arm, solved, shoulder = slice(first, first + 4), pose.copy(), shoulder_frame(pose, float(side))[0]
+    first = 7 + ARM_START[int(side > 0.0)]
+    arm, solved, shoulder = slice(first, first + 4), pose.copy(), shoulder_frame(pose, side)[0]
     away = float(np.linalg.norm(target - shoulder))
     nearer = (target - shoulder) * max(away - _LONGEST, 0.0) / away
     solved[:3] += nearer
     for _ in range(_ROUNDS):
-        hand = hand_place(solved, float(side))
+        hand = hand_place(solved, side)
         slope = np.empty((3, 4))
         for k in range(4):
             probe = solved.copy()
             probe[first + k] += _PROBE
-            slope[:, k] = (hand_place(probe, float(side)) - hand) / _PROBE
+            slope[:, k] = (hand_place(probe, side) - hand) / _PROBE
         step = slope.T @ np.linalg.solve(slope @ slope.T + _DAMPING * np.eye(3), target - hand)
         solved[arm] += step.clip(-_STEP, _STEP)
         solved[first + 3] = max(solved[first + 3], _BENT)

@@ -24,21 +24,21 @@ def standing():
 @pytest.mark.parametrize("size", [0.88, 1.0, 1.08])
 def test_a_hand_is_brought_to_a_point_with_nothing_else_changed(size):
     pose = standing()
-    point = hand_of(pose, 1, size) + np.array([0.1, 0.05, 0.1])
-    changed = with_hand_at(pose, 1, point, 1.0, size)
-    assert hand_of(changed, 1, size) == pytest.approx(
+    point = hand_of(pose, 1.0, size) + np.array([0.1, 0.05, 0.1])
+    changed = with_hand_at(pose, 1.0, point, 1.0, size)
+    assert hand_of(changed, 1.0, size) == pytest.approx(
         point + np.array([0.0, 0.0, size * HAND_RADIUS]), abs=2e-3
     )
     arm = [name.startswith("left_") and ("shoulder" in name or "elbow" in name) for name in JOINT_NAMES]
     assert np.flatnonzero(changed - pose).tolist() == [7 + k for k in np.flatnonzero(arm)]
-    assert (with_hand_at(pose, 1, point, 0.0, size) == pose).all()
+    assert (with_hand_at(pose, 1.0, point, 0.0, size) == pose).all()
 
 
 def test_a_body_comes_nearer_to_what_its_arm_does_not_reach():
     pose = standing()
-    point = hand_place(pose, -1) + np.array([0.0, -0.3, -0.1])
-    changed = with_hand_at(pose, -1, point, 1.0)
-    assert hand_place(changed, -1) == pytest.approx(point + np.array([0.0, 0.0, HAND_RADIUS]), abs=5e-3)
+    point = hand_place(pose, -1.0) + np.array([0.0, -0.3, -0.1])
+    changed = with_hand_at(pose, -1.0, point, 1.0)
+    assert hand_place(changed, -1.0) == pytest.approx(point + np.array([0.0, 0.0, HAND_RADIUS]), abs=5e-3)
     assert 0.01 < np.linalg.norm(changed[:3] - pose[:3]) < 0.3
 
 

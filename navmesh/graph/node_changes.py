@@ -135,16 +135,16 @@ def _numbered(
     ``changed`` all columns have the cells that they had."""
     window = tuple(area.tolist())
     kept = np.delete(np.arange(len(old.cell)), chosen.replaced)
-    kept_maker = moved_cells(old.maker[kept], before, surface, window)
+    maker = moved_cells(old.maker, before, surface, window)
     made = np.flatnonzero(chosen.made)
-    at = _places_among(kept_maker, chosen.nodes.maker[made], surface.clearance, grain_of(surface))
+    at = _places_among(maker[kept], chosen.nodes.maker[made], surface.clearance, grain_of(surface))
     to = at + np.arange(len(made))  # where those made in the area come to stand
     from_kept = np.arange(len(kept)) + np.cumsum(np.bincount(at, minlength=len(kept) + 1)[: len(kept)])
+    origin = np.empty(len(kept) + len(made), np.int64)
+    origin[from_kept], origin[to] = kept, len(old.cell) + np.arange(len(made))
 
-    def merged(of_kept: np.ndarray, of_made: np.ndarray) -> np.ndarray:
-        whole = np.empty((len(kept) + len(made), *of_kept.shape[1:]), of_kept.dtype)
-        whole[from_kept], whole[to] = of_kept, of_made
-        return whole
+    def merged(of_old: np.ndarray, of_made: np.ndarray) -> np.ndarray:
+        return np.concatenate([of_old, of_made])[origin]
 
     number = np.full(len(old.cell), -1, np.int32)
     number[kept] = from_kept
@@ -161,11 +161,11 @@ def _numbered(
     _renumber(old.label, np.concatenate([[-1], number]).astype(np.int32), runs, label)
     label[chosen.where[chosen.within]] = local[chosen.nodes.label[chosen.within]]
     nodes = Nodes(
-        merged(moved_cells(old.cell[kept], before, surface, window), chosen.nodes.cell[made]),
-        merged(old.place[kept], chosen.nodes.place[made]),
-        merged(kept_maker, chosen.nodes.maker[made]),
+        merged(moved_cells(old.cell, before, surface, window), chosen.nodes.cell[made]),
+        merged(old.place, chosen.nodes.place[made]),
+        merged(maker, chosen.nodes.maker[made]),
         label,
-        merged(old.position[kept], chosen.nodes.position[made]),
+        merged(old.position, chosen.nodes.position[made]),
     )
     labelled = _where_labels_change(
         before.column_start, surface.column_start, old.label, label, number, area, changed, surface.shape[1]
@@ -211,11 +211,11 @@ def _near(place, side, area):
     count = 0
     for i in range(place.shape[0]):
         x, y, r = place[i, 0], place[i, 1], place[i, 2]
-        if (
-            np.floor((x - r) / side) - 2 < area[2]
-            and np.floor((y - r) / side) - 2 < area[3]
-            and np.floor((x + r) / side) + 3 > area[0]
-            and np.floor((y + r) / side) + 3 > area[1]
+        if (  # without rounding down
+            (x - r) / side < area[2] + 2
+            and (y - r) / side < area[3] + 2
+            and (x + r) / side >= area[0] - 2
+            and (y + r) / side >= area[1] - 2
         ):
             found[count] = i
             count += 1

@@ -106,8 +106,8 @@ def _choose_in(area: np.ndarray, old: Nodes, before: Surface, surface: Surface, 
     around = tuple(hull(area, boxes_of(old.place[given], side), _SEEN, surface).tolist())
     field, where = cells_in(surface, around)
     within = within_of(field.column_start, around, window)
-    order = order_by_clearance(field.clearance, grain_of(surface))
-    order = order[within[order]]
+    inside = np.flatnonzero(within).astype(np.int32)
+    order = inside[order_by_clearance(field.clearance[inside], grain_of(surface))]
     given_maker = moved_cells(old.maker[given], before, surface, window)
     at = _places_among(where[order], given_maker, surface.clearance, grain_of(surface))
     order = np.insert(order, at, -1 - np.arange(len(given), dtype=np.int32))

@@ -36,3 +36,20 @@ def test_parts_that_are_divided_or_joined_are_looked_for_again():
             tiles_for(after, part, RADIUS), parts_of_tiles(net_of(after), part, RADIUS), strict=True
         ):
             np.testing.assert_array_equal(mine, expected)
+
+
+def test_what_is_cut_off_is_looked_for_only_where_it_is():
+    before, after = before_and_after()
+    part = parts_of(after, RADIUS)[0]
+    whole = np.bincount(part).argmax()
+    corner = after.positions[:, :2].max(axis=0) - 15.0
+    part[(part == whole) & (after.positions[:, :2] > corner).all(axis=1)] = part.max() + 1
+    before, after = before_and_after()
+    parts_of(before, RADIUS)[3][:] += 1000.0
+    *found, span = tiles_for(after, part, RADIUS)
+    *expected, right = parts_of_tiles(net_of(after), part, RADIUS)
+    for mine, other in zip(found, expected, strict=True):
+        np.testing.assert_array_equal(mine, other)
+    far = span[:, 0] > 500.0
+    assert 0.5 < far.mean() < 1.0
+    np.testing.assert_array_equal(span[~far], right[~far])

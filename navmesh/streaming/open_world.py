@@ -198,10 +198,7 @@ class OpenWorld:
         """
         first, last = _point("start", start), _point("goal", goal)
         radius, offered = checked_radius(radius), checked_skills(skills)
-        body = next((each for each in self._index.bodies if each.radius >= radius), None)
-        if body is None:
-            baked = ", ".join(f"{each:g}" for each in self.radii)
-            raise NavmeshError(f"radius = {radius:g} m: the world was baked for bodies of up to {baked} m")
+        body = self._body(radius)
         window = self._window
         if window.loaded.all() and window.graph is not None:
             fine = window.graph.find_path(first, last, radius, skills)
@@ -233,6 +230,36 @@ class OpenWorld:
                 rest = float(np.linalg.norm(points[following] - place) + lengths[following:].sum())
                 return WorldRoute(status, radius, fine, points[following:], rest)
         return WorldRoute(status, radius, None, points, float(lengths.sum()))
+
+    def place_near(self, point: Any, radius: float = 0.3, anywhere: bool = False) -> np.ndarray | None:
+        """The place (3,) [m] to which an end of a route at ``point`` (3,) [m] is moved for a body of
+        ``radius`` [m], to half a cell; with ``anywhere`` the nearest place where it fits, however far away.
+        Loaded or not; None where there is none. Raises `NavmeshError` as `route` does."""
+        where, body = _point("point", point), self._body(checked_radius(radius))
+        everywhere = np.ones(len(body.coarse.part), np.bool_) if anywhere else None
+        region, place, _ = self._nearest(body, where, everywhere)
+        return None if region < 0 else place
+
+    def _body(self, radius: float) -> Body:
+        """The least of the bodies that is not slimmer than ``radius`` [m]."""
+        body = next((each for each in self._index.bodies if each.radius >= radius), None)
+        if body is None:
+            baked = ", ".join(f"{each:g}" for each in self.radii)
+            raise NavmeshError(f"radius = {radius:g} m: the world was baked for bodies of up to {baked} m")
+        return body
+
+    def _nearest(
+        self, body: Body, point: np.ndarray, among: np.ndarray | None = None
+    ) -> tuple[int, np.ndarray, float]:
+        """(region or -1, place (3,) [m], how far it is [m]): where an end of a route at ``point`` (3,) is
+        moved; or the nearest place, however far, in the regions ``among`` (R,) bool."""
+        rules, corner, foot = self._index.rules, self._index.corner, body.footprint
+        limits, allowed = (inf, inf, 0.0), among
+        if allowed is None:
+            limits = 2.0 * body.radius + 2.0 * rules.resolution, 1.5 * rules.headroom, rules.max_step
+            allowed = np.ones(len(body.coarse.part), np.bool_)
+        region, place, off = foot.nearest(rules.resolution, point - corner, limits, allowed)
+        return region, place + corner, off
 
     def _toward(self, window: _Window, start: np.ndarray, end: np.ndarray) -> np.ndarray:
         """Points (k, 3) [m] on the straight line from ``start`` to ``end`` that are loaded, the farthest
@@ -273,13 +300,9 @@ class OpenWorld:
     ) -> tuple[str, np.ndarray, np.ndarray]:
         """(status, points (k, 3) [m] from start to goal, lengths (k - 1,) [m] between them); no points where
         there is no way."""
-        (start, goal), coarse, foot, rules = between, body.coarse, body.footprint, self._index.rules
-        corner, cell = self._index.corner, rules.resolution
+        (start, goal), coarse = between, body.coarse
         nowhere = np.empty((0, 3)), np.empty(0)
-        limits = 2.0 * body.radius + 2.0 * cell, 1.5 * rules.headroom, rules.max_step
-        anywhere = np.ones(len(coarse.part), np.bool_)
-        begin, first, _ = foot.nearest(cell, start - corner, limits, anywhere)
-        end, last, _ = foot.nearest(cell, goal - corner, limits, anywhere)
+        (begin, first, _), (end, last, _) = self._nearest(body, start), self._nearest(body, goal)
         if begin < 0 or end < 0:
             return "off_graph", *nowhere
         shut = np.ones(len(coarse.leap_target), np.bool_)
@@ -292,10 +315,9 @@ class OpenWorld:
         status = "complete"
         if not reached[coarse.part[end]]:
             status = "partial"
-            end, last, off = foot.nearest(cell, goal - corner, (inf, inf, 0.0), reached[coarse.part])
+            end, last, off = self._nearest(body, goal, reached[coarse.part])
             if np.linalg.norm(start - goal) <= off + _NEARER:
                 return "no_path", *nowhere
-        first, last = first + corner, last + corner
         straight = float(np.linalg.norm(last - first))
         if begin == end and straight <= ANCHOR:
             return status, np.stack([first, last]), np.array([straight])

@@ -8,7 +8,7 @@ import numpy as np
 
 from runtime.errors import RuntimeInputError
 from runtime.events import Arrived, Event, PostureReached, SkillFinished
-from runtime.planning.planning import NoWay
+from runtime.planning.planning import NotLoaded, NoWay, Plan
 from runtime.world.agent import Agent
 
 __all__ = ["Action", "Clear", "Follow", "Go", "Patrol", "Progress", "TakePosture", "Wait", "first_far"]
@@ -16,6 +16,7 @@ __all__ = ["Action", "Clear", "Follow", "Go", "Patrol", "Progress", "TakePosture
 THERE = 0.25
 """[m] An agent this near to a place is there and need not go."""
 _LOOK = 0.5  # [s] between looks at the agent that is followed
+_APART = 1.0  # [m] and two radii: so far a way may end beside a target that stands where one does not fit
 _STIRRED = 0.5  # [m] that it has to move before the follower takes another way
 
 Progress = Literal["going", "done", "failed"]
@@ -51,7 +52,7 @@ class Go:
         self.share = agent.progress
         if any(isinstance(event, Arrived) for event in events):
             return "done"
-        return "going" if agent.moving else "failed"
+        return "going" if agent.moving or agent.status == "waiting" else "failed"
 
 
 class Clear(Go):
@@ -175,15 +176,25 @@ class Follow:
         if not agent.moving and np.linalg.norm(there - agent.position) < self._distance + _STIRRED:
             return
         try:
-            plan = agent.plan(there)
+            goal = self._behind(agent.plan(there), agent.radius)
+        except NotLoaded:
+            goal = there
         except NoWay:
             return
-        if plan.length < self._distance + THERE:
+        if goal is None:
             agent.stop()
-        else:
-            goal = _along(plan.points, plan.length - self._distance)
-            if _send(agent, goal[None], self._speed) == "going":
-                self._seen = there
+        elif _send(agent, goal[None], self._speed) == "going":
+            self._seen = there
+
+    def _behind(self, plan: Plan, radius: float) -> np.ndarray | None:
+        """(3,) [m] Where one of ``radius`` [m] goes on its way to the target: that itself if only a part of
+        the way is loaded, which ends short of it; None for one that is as near as it should be."""
+        there = self._target.position
+        if np.linalg.norm((plan.points[-1] - there)[:2]) > self._distance + 2.0 * radius + _APART:
+            return there
+        if plan.length < self._distance + THERE:
+            return None
+        return _along(plan.points, plan.length - self._distance)
 
 
 def _send(agent: Agent, points: np.ndarray, speed: float) -> Progress:

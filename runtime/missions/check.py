@@ -17,7 +17,7 @@ from runtime.missions.clearing import find_clearing
 from runtime.missions.mission import Address, LoadedMission, places_in, steps_of
 from runtime.missions.model import AgentSpec, Step, ViewerSpec
 from runtime.missions.places import what_is_wrong
-from runtime.planning.planning import NoWay
+from runtime.planning.planning import NotLoaded, NoWay
 from runtime.planning.rules import obstacle_rules
 from runtime.world.agent import Agent
 from runtime.world.level_of_detail import Viewer, checked_detail
@@ -41,18 +41,26 @@ class Prepared(NamedTuple):
 def prepare_mission(
     loaded: LoadedMission, progress: Progress, graph: navmesh.NodeGraph | None = None
 ) -> Prepared:
-    """Make the mission's world: level read, graph built (unless it is given), all places reachable.
+    """Make the mission's world: level read, graph built (unless it is given), or of an open world what is
+    around its players loaded; all places reachable.
 
-    Raises `FileError` that names line and column for a level that is no mesh, a start off
+    Raises `FileError` that names line and column for a level that cannot be read, a start off
     the walkable surface, a place that cannot be reached from the agent's start, and a skill or an obstacle
     that is not there.
     """
     _check_ends(loaded)
-    if graph is None:
+    if loaded.open_world:
+        with progress.stage(f"loading what is around the players of {loaded.level_path.name}"):
+            level = _load_world(loaded)
+    elif graph is None:
         with progress.stage(f"reading {loaded.level_path.name} and building its graph"):
-            graph = build_graph(loaded)
+            level = build_graph(loaded)
+    else:
+        level = graph
+    if isinstance(level, navmesh.NodeGraph):
+        _check_starts(loaded, level)
     try:
-        world = World(graph, loaded.mission.seed, loaded.skill_paths)
+        world = World(level, loaded.mission.seed, loaded.skill_paths)
     except RuntimeInputError as error:
         raise loaded.error(("skills",), str(error)) from None
     world.viewers = [_viewer(each) for each in loaded.mission.viewers]
@@ -60,6 +68,8 @@ def prepare_mission(
     with progress.stage("placing the agents and checking their ways"):
         for index, spec in enumerate(loaded.mission.agents):
             _place(loaded, world, index, spec)
+        if loaded.open_world:
+            world.players = [world.agents[each] if isinstance(each, str) else each for each in loaded.players]
         for _, name, steps in steps_of(loaded.mission):
             agent = world.agents[name]
             for chain in _chains(loaded, prepared, agent, steps):
@@ -85,6 +95,32 @@ def build_graph(loaded: LoadedMission) -> navmesh.NodeGraph:
         raise loaded.error(("level", "file"), str(error)) from None
 
 
+def _load_world(loaded: LoadedMission) -> navmesh.OpenWorld:
+    """The open world of the mission, with what is around its players and the starts loaded."""
+    try:
+        world = navmesh.OpenWorld(loaded.level_path, loaded.mission.level.radius)
+        _check_starts(loaded, world)
+        starts = {agent.name: loaded.point(agent.start) for agent in loaded.mission.agents}
+        around = [starts[each] if isinstance(each, str) else each for each in loaded.players]
+        world.change(world.next_changes(around, len(world.chunks), needed=list(starts.values())))
+    except FileError:
+        raise
+    except SurefootError as error:
+        raise loaded.error(("level", "file"), str(error)) from None
+    return world
+
+
+def _check_starts(loaded: LoadedMission, level: navmesh.NodeGraph | navmesh.OpenWorld) -> None:
+    for index, (spec, body) in enumerate(zip(loaded.mission.agents, loaded.bodies, strict=True)):
+        point, radius = loaded.point(spec.start), kind_of(body).radius(body)
+        try:
+            wrong = what_is_wrong(level, point, radius, Path(body).stem)
+        except navmesh.NavmeshError as error:
+            raise loaded.error(("agents", index, "body"), str(error)) from None
+        if wrong is not None:
+            raise loaded.error(("agents", index, "start"), wrong)
+
+
 def _viewer(spec: ViewerSpec) -> Viewer:
     (x, y, z), (a, b, c) = spec.position, spec.direction
     return Viewer((x, y, z), (a, b, c), math.radians(spec.field_of_view_deg))
@@ -92,9 +128,6 @@ def _viewer(spec: ViewerSpec) -> Viewer:
 
 def _place(loaded: LoadedMission, world: World, index: int, spec: AgentSpec) -> None:
     point, body = loaded.point(spec.start), loaded.bodies[index]
-    wrong = what_is_wrong(world.graph, point, kind_of(body).radius(body), Path(body).stem)
-    if wrong is not None:
-        raise loaded.error(("agents", index, "start"), wrong)
     try:
         checked_detail(spec.detail, kind_of(body).levels, Path(body).stem)
     except ValueError as error:
@@ -135,7 +168,8 @@ def _chains(
             chain = []
         for below, place in places_in(step):
             here, point = (*address, *below), loaded.point(place)
-            wrong = what_is_wrong(prepared.world.graph, point, agent.radius, Path(agent.body).stem)
+            level = prepared.world.open_world or prepared.world.graph
+            wrong = what_is_wrong(level, point, agent.radius, Path(agent.body).stem)
             if wrong is not None:
                 raise loaded.error(here, wrong)
             chain.append((here, point))
@@ -148,6 +182,8 @@ def _check_ways(loaded: LoadedMission, agent: Agent, chain: Chain) -> None:
         return
     try:
         agent.plan(np.array([point for _, point in left]))
+    except NotLoaded:
+        pass
     except NoWay as error:
         address, point = left[error.goal]
         raise loaded.error(address, f"{point.tolist()} cannot be reached: {error.reason}") from None

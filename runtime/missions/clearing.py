@@ -2,6 +2,7 @@
 
 import numpy as np
 
+import navmesh
 from locomotion.skills.registry import skill_called, skill_kind
 from navmesh.obstacles.kinds import kind_of
 from navmesh.obstacles.obstacles import Obstacles
@@ -15,6 +16,7 @@ __all__ = ["find_clearing"]
 _RUN_UP = 8.0  # [m] straight at the obstacle, where there is room
 _BEYOND = 5.0  # [m] that it goes on behind the edge
 _MARGIN = 0.6  # [m] that both keep from the end of the free length
+_AROUND = 30.0  # [m] of an open world that have to be known to find an obstacle and its run-up
 _NEAR = 3.0  # [m] from the place that `use` names to the obstacle it means
 
 
@@ -30,7 +32,8 @@ def find_clearing(
     if kind.affordance not in agent.skills:
         valid = ", ".join(repr(skill_kind(each).skill) for each in agent.skills) or "none"
         raise loaded.error((*address, "skill"), f"a {agent.body} has no skill {use.skill!r}; valid: {valid}")
-    obstacles = world.graph.obstacles
+    graph = _graph_there(loaded, world, address, use)
+    obstacles = graph.obstacles
     index = _obstacle(loaded, obstacles, address, use)
     low, high = agent.skills[kind.affordance]
     size = float(obstacles.size[index])
@@ -41,12 +44,27 @@ def find_clearing(
             f"{low:.2f} to {high:.2f} m",
         )  # fmt: skip
     before, beyond = _ends(obstacles, index)
-    route = world.graph.find_path(before, beyond, radius=agent.radius, skills=agent.skills)
+    route = graph.find_path(before, beyond, radius=agent.radius, skills=agent.skills)
     if route.status != "complete" or index not in [link.obstacle for link in route.links]:
         raise loaded.error(
             address, f"from before {obstacles.tag[index]} the shortest way does not lead over it"
         )
     return np.array([before, beyond])
+
+
+def _graph_there(loaded: LoadedMission, world: World, address: Address, use: Use) -> navmesh.NodeGraph:
+    """The graph with the obstacle of ``use``; of an open world that of what is around it."""
+    if not loaded.open_world:
+        return world.graph
+    if use.near is None:
+        raise loaded.error(
+            (*address, "obstacle"),
+            f"obstacles of an open world have no names; say near: [x, y, z], at most {_NEAR:g} m from the "
+            "middle of its edge",
+        )
+    there = navmesh.OpenWorld(loaded.level_path, _AROUND)
+    there.keep_around(loaded.point(use.near), len(there.chunks))
+    return there.graph or world.graph
 
 
 def _obstacle(loaded: LoadedMission, obstacles: Obstacles, address: Address, use: Use) -> int:

@@ -20,7 +20,7 @@ Paths in a mission are relative to the mission's file.
 """
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Self
 
@@ -30,9 +30,10 @@ from pydantic.json_schema import GenerateJsonSchema
 import navmesh
 from locomotion import LocomotionError, load_run_skill
 from locomotion.skills.description import load_described
+from navmesh.streaming.world_folder import INDEX
 from runtime.bodies.registry import is_body_file, kind_of
 from runtime.errors import RuntimeInputError
-from runtime.missions.model import Mission, Step
+from runtime.missions.model import Mission, RulesSpec, Step
 from runtime.planning.rules import walk_rules
 from surefoot.files.inputs import note_input
 from surefoot.files.yamlfile import FileError, Located, dotted, nearest, read_yaml
@@ -45,7 +46,8 @@ Address = tuple[str | int, ...]
 class LoadedMission:
     """A checked mission with the place of its file: resolves paths and names, and errors name the line.
 
-    ``level_path`` and ``tags_path`` (or None) exist. ``bodies`` are the agents' in order, as
+    ``level_path`` and ``tags_path`` (or None) exist; ``open_world``: whether the level is one, a folder.
+    ``bodies`` are the agents' in order, as
     `runtime.World.spawn` takes them: files of one's own are sound, and their paths resolved. ``skill_paths``
     are those of skills of one's own, sound too. Every name that the mission mentions stands in it.
     """
@@ -56,7 +58,8 @@ class LoadedMission:
         self._located = located
         self._check_unique()
         self._check_mentions()
-        self.level_path = self._existing(("level", "file"), mission.level.file, "level")
+        self.open_world = _is(Path.is_dir, self.path.parent / mission.level.file)
+        self.level_path = self._level()
         self.bodies = [self._body(i, agent.body) for i, agent in enumerate(mission.agents)]
         self.skill_paths = [self._skill(k, name) for k, name in enumerate(mission.skills)]
         tags = mission.level.tags
@@ -79,6 +82,13 @@ class LoadedMission:
         """The (3,) float64 [m] of a place: itself, or the waypoint of that name."""
         return np.array(self.mission.waypoints[place] if isinstance(place, str) else place, dtype=np.float64)
 
+    @property
+    def players(self) -> list[str | np.ndarray]:
+        """Around whom an open world is loaded: names of agents, and places (3,) [m]."""
+        names = [agent.name for agent in self.mission.agents]
+        said = names if self.mission.players is None else self.mission.players
+        return [each if each in names else self.point(each) for each in said]
+
     def error(self, address: Address, problem: str) -> FileError:
         """An error whose message names the line and column of ``address`` in the file."""
         return self._located.error(address, f"{dotted(address)}: {problem}")
@@ -89,13 +99,36 @@ class LoadedMission:
         valid_ones = f"{nearest(name, known)}valid: {', '.join(known) or 'none'}"
         return self.error(address, f"no {what} is called {name!r}; {valid_ones}")
 
+    def _level(self) -> Path:
+        """Path of a mesh file or of the folder of an open world, of which nothing is said that it cannot
+        have."""
+        mission, level, address = self.mission, self.mission.level, ("level", "file")
+        if not self.open_world:
+            for said, name, where in (
+                (level, "radius", ("level", "radius")),
+                (mission, "players", ("players",)),
+            ):
+                if name in said.model_fields_set:
+                    raise self.error(where, "this is for open worlds; the level is a mesh, loaded as a whole")
+            return self._existing(address, level.file, "level")
+        for name in ("up", "scale", "tags"):
+            if getattr(level, name) is not None:
+                raise self.error(("level", name), "an open world is as it was baked; leave this out")
+        if mission.rules != RulesSpec():
+            raise self.error(("rules",), "an open world has the rules that it was baked with; leave this out")
+        path = self.path.parent / level.file
+        if not (path / INDEX).is_file():
+            raise self.error(
+                address,
+                f"{str(path)!r} is a folder without an open world; expected a mesh file, or a folder that "
+                "navmesh.bake_open_world has written",
+            )
+        note_input(path / INDEX)
+        return path
+
     def _existing(self, address: Address, name: str, what: str) -> Path:
         path = self.path.parent / name
-        try:
-            found = path.is_file()
-        except (OSError, ValueError):
-            found = False
-        if not found:
+        if not _is(Path.is_file, path):
             raise self.error(address, f"no such {what}: {str(path)!r}")
         note_input(path)
         return path
@@ -132,12 +165,21 @@ class LoadedMission:
             "agent": [agent.name for agent in mission.agents],
             "waypoint": mission.waypoints,
             "region": mission.regions,
+            "agent or waypoint": [*(agent.name for agent in mission.agents), *mission.waypoints],
         }
         for address, what, name, of in _mentions(mission):
             if name not in known[what]:
                 raise self.unknown(address, name, what, known[what])
             if name == of:
                 raise self.error(address, f"{name!r} is this agent itself; another one is needed")
+
+
+def _is(kind: Callable[[Path], bool], path: Path) -> bool:
+    """Whether there is something of a ``kind`` at a ``path``, which may be none at all."""
+    try:
+        return kind(path)
+    except (OSError, ValueError):
+        return False
 
 
 def load_mission(path: str | os.PathLike[str]) -> LoadedMission:
@@ -185,6 +227,9 @@ def steps_of(mission: Mission) -> Iterator[tuple[Address, str, list[tuple[Addres
 
 def _mentions(mission: Mission) -> Iterator[tuple[Address, str, str, str | None]]:
     """Address, kind and name of all that is mentioned by name, and the agent that it must not be."""
+    for k, player in enumerate(mission.players or ()):
+        if isinstance(player, str):
+            yield ("players", k), "agent or waypoint", player, None
     for i, agent in enumerate(mission.agents):
         here: Address = ("agents", i)
         if isinstance(agent.start, str):

@@ -134,10 +134,12 @@ def _requires_one(names: tuple[str, ...]) -> ConfigDict:
 
 
 class LevelSpec(_Strict):
-    """The mesh that the mission runs on."""
+    """The mesh or the open world that the mission runs on."""
 
     file: str
-    """Mesh file, relative to the mission's."""
+    """Mesh file, or the folder of an open world (`navmesh.bake_open_world`), relative to the mission's."""
+    radius: Annotated[float, Gt(0.0), Le(1e5)] = 250.0
+    """[m] Of an open world: how far around its players chunks are loaded."""
     up: Literal["x", "y", "z"] | None = None
     """Axis of the file that points up; default: what the file says, y for glTF, else z. The coordinates in
     the mission are Z up in any case."""
@@ -445,5 +447,8 @@ class Mission(_Strict):
     """Files that describe skills of one's own, relative to the mission's: its people have them, too."""
     agents: Annotated[list[AgentSpec], Len(1, 100)]
     triggers: Annotated[list[Trigger], Len(0, 1000)] = []
+    players: Annotated[list[Place], Len(0, 100)] | None = None
+    """Around whom an open world is loaded: agents by name, wherever they go, waypoints and points [m]; by
+    default all agents."""
     viewers: Annotated[list[ViewerSpec], Len(0, 100)] = []
     """Who looks on."""

@@ -10,17 +10,19 @@ _ASIDE = 0.25  # [m] to which a place may be from where the body fits
 _UP = 0.5  # [m] that it may be above or below the floor there
 
 
-def what_is_wrong(graph: navmesh.NodeGraph, point: np.ndarray, radius: float, body: str) -> str | None:
+def what_is_wrong(
+    level: navmesh.NodeGraph | navmesh.OpenWorld, point: np.ndarray, radius: float, body: str
+) -> str | None:
     """Why a body of ``radius`` [m] cannot be at ``point`` (3,) [m] and where it can be near by; None where
-    nothing is wrong."""
-    here = graph.find_path(point, point, radius=radius)
-    if here.status != "complete":
-        place = _nearest(graph, point, radius)
+    nothing is wrong. Of an open world nothing need be loaded. Raises `NavmeshError` for a body that is too
+    wide for it."""
+    place = _here(level, point, radius)
+    if place is None:
+        place = _nearest(level, point, radius)
         if place is None:
             return f"a {body} fits nowhere on the level"
         nearest = f"the nearest place where a {body} fits is {_named(place)}"
         return f"{_named(point)} is not on the floor, or in a wall; {nearest}"
-    place = here.waypoints[0]
     aside, up = float(np.hypot(*(place - point)[:2])), float(point[2] - place[2])
     if aside > _ASIDE:
         return (
@@ -33,8 +35,23 @@ def what_is_wrong(graph: navmesh.NodeGraph, point: np.ndarray, radius: float, bo
     return None
 
 
-def _nearest(graph: navmesh.NodeGraph, point: np.ndarray, radius: float) -> np.ndarray | None:
+def _here(
+    level: navmesh.NodeGraph | navmesh.OpenWorld, point: np.ndarray, radius: float
+) -> np.ndarray | None:
+    """The place (3,) to which a body of ``radius`` [m] is moved that is put at ``point``."""
+    if isinstance(level, navmesh.OpenWorld):
+        return level.place_near(point, radius)
+    here = level.find_path(point, point, radius=radius)
+    return here.waypoints[0] if here.status == "complete" else None
+
+
+def _nearest(
+    level: navmesh.NodeGraph | navmesh.OpenWorld, point: np.ndarray, radius: float
+) -> np.ndarray | None:
     """The place (3,) nearest to ``point`` in the discs that hold a body of ``radius`` [m]."""
+    if isinstance(level, navmesh.OpenWorld):
+        return level.place_near(point, radius, anywhere=True)
+    graph = level
     wide = np.flatnonzero(graph.radii >= radius)
     if not len(wide):
         return None

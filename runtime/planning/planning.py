@@ -21,8 +21,8 @@ from surefoot.pausing import pause
 from surefoot.slices import Slices, finish
 
 __all__ = [
-    "Beginning", "NoWay", "Plan", "Way", "find_way", "make_plan", "pulled_plan", "smoothing_way", "way_holds",
-    "why_not",
+    "Beginning", "NoWay", "NotLoaded", "Plan", "Way", "find_way", "make_plan", "pulled_plan",
+    "smoothing_way", "way_holds", "why_not",
 ]  # fmt: skip
 
 _SHORT = 0.05  # [m] by which a smoothed path may be nearer to a wall than its radius
@@ -35,6 +35,10 @@ class NoWay(ValueError):
     def __init__(self, goal: int, reason: str) -> None:
         self.goal, self.reason = goal, reason
         super().__init__(f"goal {goal}: {reason}")
+
+
+class NotLoaded(NoWay):
+    """There is a way, but what comes first of it is not loaded of the open world."""
 
 
 @dataclass(frozen=True, eq=False)

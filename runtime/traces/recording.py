@@ -3,6 +3,7 @@
 import numpy as np
 
 import navmesh
+from navmesh.level.chunks import chunks_of
 from runtime.bodies.held_things import figure_with, thing_figure, things_in
 from runtime.events import Event
 from runtime.traces.trace import AgentTrace, LevelTrace, PathTrace, Trace
@@ -22,10 +23,15 @@ class Recorder:
         self._held: dict[str, list[str]] = {}
         self._agents: dict[str, Agent] = {}
         self.events: list[Event] = []
+        self._graph: navmesh.NodeGraph | None = None
+        self._chunks: dict[str, navmesh.Terrain] = {}
 
     def sample(self) -> list[Event]:
         """Record the present poses; returns the events since the last call."""
         fresh = self._world.events
+        if self._world.graph is not self._graph and self._world.loaded:
+            self._graph = self._world.graph
+            self._chunks |= chunks_of(self._graph.terrain)
         self.events += fresh
         self._times.append(self._world.time)
         for name, transforms in self._world.transforms().items():
@@ -41,16 +47,22 @@ class Recorder:
         return fresh
 
     def trace(self, report: dict) -> Trace:
-        """The whole recording, with a ``report`` of plain values."""
+        """The whole recording, with a ``report`` of plain values. The level is as it is now; of an open world
+        everything that was loaded meanwhile."""
         agents = tuple(self._agent(name, agent) for name, agent in self._agents.items())
         return Trace(
-            level=level_trace(self._world.graph),
+            level=level_trace(self._everything()),
             times=np.array(self._times),
             agents=agents,
             events=tuple(event.to_dict() for event in self.events),
             state_hash=self._world.state_hash(),
             report=report,
         )
+
+    def _everything(self) -> navmesh.NodeGraph:
+        graph = self._world.graph
+        missing = {name: chunk for name, chunk in self._chunks.items() if name not in self._world.loaded}
+        return graph.update(missing) if missing else graph
 
     def _agent(self, name: str, agent: Agent) -> AgentTrace:
         paths = tuple(

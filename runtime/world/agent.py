@@ -29,7 +29,7 @@ from runtime.events import (
     Waiting,
 )
 from runtime.planning.beyond import Beyond, loaded_part
-from runtime.planning.planning import NoWay, Plan
+from runtime.planning.planning import NotLoaded, NoWay, Plan
 from runtime.traffic.waiting_and_deadlock import Headway
 from runtime.world.agent_services import Host
 from runtime.world.agent_state import AgentState, Errand, check_size, checked_style
@@ -335,12 +335,13 @@ class Agent:
 
     def plan(self, point: ArrayLike) -> Plan:
         """The way that `go_to` would take, not taken; in an open world as far as it is loaded. Raises
-        `runtime.planning.planning.NoWay`, and `RuntimeInputError` as `go_to` does."""
+        `runtime.planning.planning.NoWay`, `NotLoaded` where nothing of it is, and `RuntimeInputError` as
+        `go_to` does."""
         goals = checked_points(point, "point")
         beyond, plan = self._ways(goals, lambda points, _: self._driver.plan(points))
         if plan is None:
             assert beyond is not None
-            raise NoWay(beyond.full, "what comes first of the way is not loaded yet")
+            raise NotLoaded(beyond.full, "what comes first of the way is not loaded yet")
         return plan
 
     def go_to(self, point: ArrayLike, speed: float = 3.5, facing: float | None = None) -> str:

@@ -274,6 +274,12 @@ class World:
         """Names of the chunks of an open world that are loaded, in alphabetical order."""
         return () if self._streaming is None else self._streaming.world.loaded
 
+    @property
+    def open_world(self) -> navmesh.OpenWorld | None:
+        """A copy of the open world that the level is, with the same chunks loaded; None where the level is
+        loaded as a whole. Takes constant time."""
+        return None if self._streaming is None else copy(self._streaming.world)
+
     def keep_around(self, places: ArrayLike, changes: int = 1) -> dict[str, navmesh.Terrain | None]:
         """Load and drop up to so many ``changes`` of an open world's chunks at once, as ``places`` (3,) or
         (k, 3) [m] want it, such as while a level is loaded or before an agent appears elsewhere; `players` do

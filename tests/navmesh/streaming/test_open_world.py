@@ -310,3 +310,24 @@ def test_the_digest_is_of_the_whole_world_whatever_is_loaded(tmp_path):
     assert world.digest == before == OpenWorld(tmp_path / "world").digest
     other = bake_open_world({"00": terrain(plane(0, 10, 0, 10))}, tmp_path / "other")
     assert OpenWorld(other).digest != before
+
+
+@pytest.mark.parametrize("kind", ["city", "pieces"])
+def test_a_place_is_moved_to_where_a_body_fits_loaded_or_not(kind):
+    world, graph, random = open_world(kind), whole(kind), np.random.default_rng(4)
+    low, high = graph.terrain.bounds
+    for radius in RADII:
+        wide = graph.positions[graph.radii >= radius]
+        for point in [
+            *wide[random.integers(len(wide), size=20)],
+            *random.uniform(low - 9.0, high + 9.0, (20, 3)),
+        ]:
+            place, near = world.place_near(point, radius, anywhere=True), world.place_near(point, radius)
+            here = graph.find_path(place, place, radius)
+            assert here.status == "complete" and np.linalg.norm(here.waypoints[0] - place) < 0.25
+            off = np.linalg.norm(place - point)
+            assert off < np.linalg.norm(wide - point, axis=1).min() + 0.25
+            assert near is None or off < np.linalg.norm(near - point) + 0.01
+            assert near is not None or off > 2.0 * radius
+    with pytest.raises(NavmeshError, match=r"bodies of up to 0\.25, 0\.6 m"):
+        world.place_near(low, 0.7)

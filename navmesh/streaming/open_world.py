@@ -136,13 +136,9 @@ class OpenWorld:
         A copy (`copy.copy`) has a window of its own: it can be changed in a thread while this world is used.
         """
         index, window = self._index, self._window
-        number = {name: k for k, name in enumerate(index.names)}
-        unknown = sorted(set(names) - set(number))
-        if unknown:
-            raise NavmeshError(f"there is no chunk {unknown[0]!r} in {self._folder}; see OpenWorld.chunks")
-        if not names:
+        chosen = self._numbers(names)
+        if not chosen:
             return {}
-        chosen = [number[name] for name in names]
         found = {
             index.names[k]: None if window.loaded[k] else read_chunk(self._folder, index, k) for k in chosen
         }
@@ -168,6 +164,19 @@ class OpenWorld:
         return _or_none(
             lambda: NodeGraph.build(terrain, index.rules, index.obstacle_rules, extent=index.extent)
         )
+
+    def chunk(self, name: str) -> Terrain:
+        """The mesh of a chunk, loaded or not, read from its file. Raises `NavmeshError` for a name that no
+        chunk has, `ArchiveError` for a file that is missing or damaged."""
+        (number,) = self._numbers([name])
+        return read_chunk(self._folder, self._index, number)
+
+    def _numbers(self, names: Sequence[str]) -> list[int]:
+        number = {name: k for k, name in enumerate(self._index.names)}
+        unknown = sorted(set(names) - set(number))
+        if unknown:
+            raise NavmeshError(f"there is no chunk {unknown[0]!r} in {self._folder}; see OpenWorld.chunks")
+        return [number[name] for name in names]
 
     def is_loaded(self, points: Any) -> np.ndarray:
         """Whether everything near each of ``points`` (k, 3) [m] is loaded, so that the fine graph can be

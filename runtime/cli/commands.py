@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import navmesh
 from locomotion import smooth_route
@@ -28,6 +28,7 @@ from surefoot.progress import Progress
 from surefoot.words import several
 
 __all__ = [
+    "Address",
     "Result",
     "bake_level",
     "check_mission_file",
@@ -206,17 +207,25 @@ def write_schema(output: Path | None) -> None:
         temporary.write_text(text, encoding="utf-8")
 
 
+class Address(NamedTuple):
+    """Where a server listens, its token, and the folder of its pages."""
+
+    host: str
+    port: int
+    token: str
+    pages: Path | None
+
+
 def serve_worlds(
     levels: list[Path],
     up: str | None,
     scale: float | None,
-    host: str,
-    port: int,
-    token: str,
-    pages: Path | None,
+    radius: float,
+    at: Address,
     line: DisLine | None = None,
 ) -> None:
-    """Serve worlds on ``levels``, meshes or baked graphs, until interrupted."""
+    """Serve worlds on ``levels`` until interrupted: meshes, baked graphs, or open worlds, of which ``radius``
+    [m] around players is loaded."""
     import asyncio
 
     try:
@@ -224,18 +233,20 @@ def serve_worlds(
     except ImportError as error:
         raise RuntimeInputError(f"{error}; in Surefoot's folder: pip install -e '.[serve]'") from None
 
-    if pages is not None and not pages.is_dir():
-        raise RuntimeInputError(f"{pages}: not a folder; --pages needs one")
-    graphs: dict[str, navmesh.NodeGraph] = {}
+    if at.pages is not None and not at.pages.is_dir():
+        raise RuntimeInputError(f"{at.pages}: not a folder; --pages needs one")
+    served: dict[str, navmesh.NodeGraph | navmesh.OpenWorld] = {}
     progress = ready()
     for level in levels:
-        if level.stem in graphs:
+        if level.stem in served:
             raise RuntimeInputError(f"{level}: two levels are called {level.stem!r}")
-        graphs[level.stem] = _graph_of(level, up, scale, progress)
+        served[level.stem] = (
+            navmesh.OpenWorld(level, radius) if level.is_dir() else _graph_of(level, up, scale, progress)
+        )
     load_kernels()
     gateway = None if line is None else line.gateway
-    server = SurefootServer(graphs, host, port, token, pages, gateway=gateway)
-    where = f"[{host}]" if ":" in host else host
+    server = SurefootServer(served, *at, gateway=gateway)
+    where = f"[{at.host}]" if ":" in at.host else at.host
 
     async def serve_until_ended() -> None:
         own = asyncio.current_task()

@@ -8,7 +8,7 @@ import asyncio
 import time
 import weakref
 from collections.abc import Mapping, Sequence
-from itertools import count
+from itertools import chain, count
 from typing import Any
 
 import numpy as np
@@ -21,27 +21,34 @@ from runtime.planning.planning import Plan
 from runtime.server.changes import NOTHING, Changes, Shown
 from runtime.server.client import Client
 from runtime.server.messages import States
-from runtime.traces.recording import level_trace
 from runtime.world.agent import Agent
 from runtime.world.level_of_detail import PHYSICS
 from runtime.world.world import World, WorldState
 from surefoot.pausing import pause
 
-__all__ = ["HostedWorld", "graph_message", "level_message", "skeleton", "way_message"]
-
-_DRAWN = ("positions", "radii", "edges", "rim", "normal", "height")
+__all__ = ["HostedWorld", "skeleton", "way_message"]
 
 
 class HostedWorld:
     """``name``: unique on the server; ``level``: its level's name; ``manual``: whether clients step it.
     ``clients``: members in order of joining, each with the states that it wants. ``spawned``: client of
-    each agent. ``since``: when [s] it was last advanced or, without clients, left. ``at_work``: whether an
-    advance is due. ``closed``: whether it has ended. ``gateway``: to other simulators, if it talks to them.
+    each agent. ``loaded``: the chunks of an open world that members have been told of. ``since``: when [s]
+    it was last advanced or, without clients, left. ``at_work``: whether an advance is due. ``closed``:
+    whether it has ended. ``gateway``: to other simulators, if it talks to them.
     """
 
-    def __init__(self, name: str, level: str, graph: navmesh.NodeGraph, seed: int, manual: bool) -> None:
+    def __init__(
+        self,
+        name: str,
+        level: str,
+        start: navmesh.NodeGraph | navmesh.OpenWorld,
+        seed: int,
+        manual: bool,
+    ) -> None:
         self.name, self.level, self.manual = name, level, manual
-        self.world = World(graph, seed)
+        # with a thread more, chunks are loaded meanwhile
+        self.world = World(start, seed, threads=2 if isinstance(start, navmesh.OpenWorld) else 1)
+        self.loaded = self.world.loaded
         self.clients: dict[Client, States] = {}
         self.spawned: dict[str, Client | None] = {}
         self.saved: WorldState | None = None
@@ -54,6 +61,8 @@ class HostedWorld:
         self._ways: dict[str, tuple[Plan, int]] = {}
         self._numbers = count(1)
         self._changes = Changes(self._agent_fields)
+        self._players: dict[Client, tuple[str | tuple[float, float, float], ...]] = {}
+        self._players_left = False
         self._told: weakref.WeakKeyDictionary[Client, Mapping[str, Shown]] = weakref.WeakKeyDictionary()
 
     @property
@@ -80,6 +89,8 @@ class HostedWorld:
 
     def step(self, dt: float) -> int:
         """Ticks."""
+        if self._players_left:
+            self._let_play(self._players)
         ticks = self.world.step(dt)
         if self.gateway is not None:
             self.gateway.exchange()
@@ -114,8 +125,37 @@ class HostedWorld:
         self.agent(agent).stop()
         return self.agent(agent).status
 
+    def play(self, client: Client, players: Sequence[str | tuple[float, float, float]]) -> None:
+        """Keep an open world loaded around ``players``, agents by name and places [m], for ``client``; those
+        of others are kept, too."""
+        for each in players:
+            if isinstance(each, str):
+                self.agent(each)
+        by_client = {**self._players, client: tuple(players)}
+        self._let_play(by_client)
+        self._players = by_client
+
+    def _let_play(self, by_client: Mapping[Client, Sequence[str | tuple[float, float, float]]]) -> None:
+        agents, everybody = self.world.agents, chain.from_iterable(by_client.values())
+        self.world.players = [
+            agents[each] if isinstance(each, str) else each
+            for each in everybody
+            if not isinstance(each, str) or each in agents
+        ]
+        self._players_left = False
+
+    def chunks_changed(self) -> tuple[list[str], list[str]]:
+        """The chunks of an open world that were loaded and dropped since the last call."""
+        before, self.loaded = set(self.loaded), self.world.loaded
+        now = set(self.loaded)
+        return sorted(now - before), sorted(before - now)
+
     def remove(self, agent: str) -> None:
         self.agent(agent).remove()
+        self._players = {
+            client: tuple(each for each in players if each != agent)
+            for client, players in self._players.items()
+        }
         self.changed()
 
     def save(self) -> dict[str, Any]:
@@ -189,6 +229,7 @@ class HostedWorld:
     def end(self, client: Client) -> bool:
         """Let ``client`` be no member any more; returns whether it was."""
         self._told.pop(client, None)
+        self._players_left |= bool(self._players.pop(client, ()))
         return self.clients.pop(client, None) is not None
 
     def _agent_state(self, agent: Agent, states: States) -> dict[str, Any]:
@@ -240,19 +281,6 @@ def skeleton(agent: Agent) -> dict[str, Any]:
         "round": np.asarray(figure.shapes.round).tolist(),
         "colour": figure.shapes.colour.round(4).tolist(),
     }
-
-
-def level_message(graph: navmesh.NodeGraph) -> dict[str, Any]:
-    """The level's mesh as plain values."""
-    terrain = graph.terrain
-    return {"vertices": terrain.vertices.round(4).tolist(), "faces": terrain.faces.tolist()}
-
-
-def graph_message(graph: navmesh.NodeGraph) -> dict[str, Any]:
-    """What is drawn of a level's graph and obstacles, as in `runtime.traces.trace.LevelTrace`."""
-    level = level_trace(graph)
-    drawn = {name: getattr(level, name).round(4).tolist() for name in _DRAWN}
-    return {**drawn, "affordances": list(level.affordances)}
 
 
 def way_message(agent: Agent) -> dict[str, Any]:

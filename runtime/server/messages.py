@@ -24,6 +24,7 @@ from surefoot.files.choices import OneOf
 __all__ = [
     "PROTOCOL",
     "REQUEST",
+    "Chunk",
     "Close",
     "Create",
     "GoTo",
@@ -33,6 +34,7 @@ __all__ = [
     "Join",
     "Leave",
     "Level",
+    "Players",
     "Remove",
     "Request",
     "Restore",
@@ -100,14 +102,24 @@ class Graph(_Request):
     level: _Name
 
 
+class Chunk(_Request):
+    """Ask for the vertices and triangles of a chunk of an open world, loaded or not."""
+
+    type: Literal["chunk"]
+    level: _Name
+    chunk: Annotated[str, Field(min_length=1, max_length=200)]
+
+
 class Create(_Request):
-    """Make a world and join it. ``clock``: "real" runs by itself, "manual" by `Step`."""
+    """Make a world and join it. ``clock``: "real" runs by itself, "manual" by `Step`. ``around``: places [m]
+    around which an open world is loaded at first, and until the client says who its `Players` are."""
 
     type: Literal["create"]
     level: _Name
     seed: Annotated[int, Field(ge=0, le=2**53 - 1)] = 0
     clock: Literal["real", "manual"] = "real"
     states: States = "places"
+    around: Annotated[list[_Point], Field(max_length=16)] = []
 
 
 class Join(_Request):
@@ -198,6 +210,15 @@ class Viewers(_Request):
     viewers: Annotated[list[Viewer], Field(max_length=16)]
 
 
+class Players(_Request):
+    """Say around whom an open world is kept loaded: agents by name, wherever they go, and places [m], such as
+    those of cameras. Replaces what this client said before; the players of others are kept, too."""
+
+    type: Literal["players"]
+    world: _Name
+    players: Annotated[list[_Name | _Point], Field(max_length=16)]
+
+
 class GoTo(_Request):
     """Send an agent through points, in order."""
 
@@ -259,6 +280,7 @@ Request = Annotated[
     Hello
     | Level
     | Graph
+    | Chunk
     | Create
     | Join
     | Leave
@@ -270,6 +292,7 @@ Request = Annotated[
     | SetDetail
     | SetStyle
     | Viewers
+    | Players
     | Stop
     | Way
     | Remove
@@ -324,6 +347,15 @@ class Gone(_Ordered):
     type: Literal["gone"]
     world: str
     agent: str | None
+
+
+class ChunksChanged(_Ordered):
+    """Chunks of an open world have been loaded and dropped."""
+
+    type: Literal["chunks"]
+    world: str
+    loaded: list[str]
+    dropped: list[str]
 
 
 class Skeleton(_Message):
@@ -415,7 +447,7 @@ class Changes(_Message):
 
 
 Answer = Annotated[
-    Reply | Error | Event | Joined | Gone | State | Changes,
+    Reply | Error | Event | Joined | Gone | ChunksChanged | State | Changes,
     Field(discriminator="type"),
 ]
 

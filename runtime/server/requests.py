@@ -3,19 +3,15 @@
 Long work is done in the turns of the client that requested it, one request at a time in each world.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from pydantic_core import to_json
-
-import navmesh
-from locomotion.body.models import person_on
 from runtime.errors import RuntimeInputError
-from runtime.planning.level import Level
 from runtime.server import messages as m
 from runtime.server.client import Client
-from runtime.server.hosted import HostedWorld, graph_message, level_message, skeleton, way_message
+from runtime.server.hosted import HostedWorld, skeleton, way_message
+from runtime.server.levels import Levels
 from runtime.server.turns import Abandoned, Turns
 from runtime.server.worlds import Worlds
 from runtime.world.level_of_detail import Viewer
@@ -24,14 +20,10 @@ __all__ = ["Requests"]
 
 
 class Requests:
-    """Handles requests about ``worlds`` on ``levels`` (graphs by name)."""
+    """Handles requests about ``worlds`` on ``levels``."""
 
-    def __init__(self, levels: Mapping[str, navmesh.NodeGraph], worlds: Worlds, turns: Turns) -> None:
+    def __init__(self, levels: Levels, worlds: Worlds, turns: Turns) -> None:
         self._levels, self._worlds, self._turns = levels, worlds, turns
-        for graph in levels.values():
-            person_on(Level.of(graph).ground)  # once for all worlds, before anybody waits for it
-        self._level_texts = {name: to_json(level_message(graph)) for name, graph in levels.items()}
-        self._graph_texts = {name: to_json(graph_message(graph)) for name, graph in levels.items()}
 
     async def result(self, client: Client, request: Any) -> dict[str, Any] | bytes:
         """Fields of the reply, or their JSON text. Raises `RuntimeInputError`, and `ValueError` from what was
@@ -55,26 +47,30 @@ class Requests:
         except Abandoned:
             raise RuntimeInputError(f"world {hosted.name!r} has been closed") from None
 
-    def _level(self, texts: Mapping[str, Any], name: str) -> Any:
-        if name not in texts:
-            raise RuntimeInputError(f"no level {name!r}; valid: {', '.join(texts)}")
-        return texts[name]
-
     # ---
     async def _do_hello(self, client: Client, request: m.Hello) -> Any:
         raise RuntimeInputError("hello was sent already")
 
     async def _do_level(self, client: Client, request: m.Level) -> Any:
-        return self._level(self._level_texts, request.level)
+        return self._levels.mesh(request.level)
 
     async def _do_graph(self, client: Client, request: m.Graph) -> Any:
-        return self._level(self._graph_texts, request.level)
+        return self._levels.graph(request.level)
+
+    async def _do_chunk(self, client: Client, request: m.Chunk) -> Any:
+        return self._levels.chunk(request.level, request.chunk)
 
     async def _do_create(self, client: Client, request: m.Create) -> Any:
-        graph = self._level(self._levels, request.level)
         self._worlds.check_world(client)
         name, manual = self._worlds.new_name(), request.clock == "manual"
-        make = partial(HostedWorld, name, request.level, graph, request.seed, manual)
+
+        def make() -> HostedWorld:
+            start = self._levels.start(request.level, request.around)
+            made = HostedWorld(name, request.level, start, request.seed, manual)
+            if request.around:
+                made.play(client, request.around)
+            return made
+
         hosted = await self._turns.run(client.account, make)
         self._worlds.connect(hosted)
         self._worlds.hosted[name] = hosted
@@ -87,7 +83,7 @@ class Requests:
     async def _join(self, client: Client, hosted: HostedWorld, states: m.States) -> Any:
         joined = await self._work(client, hosted, partial(hosted.join, states), told=False)
         self._worlds.join(client, hosted, states)
-        return joined
+        return {**joined, "loaded": list(hosted.loaded)}
 
     async def _do_leave(self, client: Client, request: m.Leave) -> Any:
         hosted = self._worlds.hosted.get(request.world)
@@ -162,6 +158,9 @@ class Requests:
         return await self._tell(
             client, request.world, lambda hosted: setattr(hosted.world, "viewers", viewers)
         )
+
+    async def _do_players(self, client: Client, request: m.Players) -> Any:
+        return await self._tell(client, request.world, lambda hosted: hosted.play(client, request.players))
 
     async def _do_stop(self, client: Client, request: m.Stop) -> Any:
         hosted = self._worlds.joined(client, request.world)

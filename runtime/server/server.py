@@ -27,6 +27,7 @@ from runtime.server import messages as m
 from runtime.server.client import Client
 from runtime.server.connection import connection_with
 from runtime.server.hosted import HostedWorld
+from runtime.server.levels import Levels
 from runtime.server.limits import Limits
 from runtime.server.logs import sparing
 from runtime.server.outbox import Outbox
@@ -46,7 +47,7 @@ _LONGEST = 0.1  # [s] most that such a world catches up at once
 
 
 class SurefootServer:
-    """Worlds on ``levels`` (graphs by name) for clients that connect to ``host``:``port``.
+    """Worlds on ``levels`` (graphs and open worlds by name) for clients that connect to ``host``:``port``.
 
     ``token``: secret in `messages.Hello`; required unless ``host`` is the loopback, else `RuntimeInputError`.
     ``pages``: a folder whose files are served over HTTP. ``gateway`` makes the one to other simulators
@@ -55,7 +56,7 @@ class SurefootServer:
 
     def __init__(
         self,
-        levels: Mapping[str, navmesh.NodeGraph],
+        levels: Mapping[str, navmesh.NodeGraph | navmesh.OpenWorld],
         host: str = "127.0.0.1",
         port: int = 8765,
         token: str = "",
@@ -67,7 +68,7 @@ class SurefootServer:
             raise RuntimeInputError(
                 f"host {host!r} can be reached from other machines: give a token, or use 127.0.0.1"
             )
-        self.levels, self.host, self.port, self.limits = dict(levels), host, port, limits or Limits()
+        self.levels, self.host, self.port, self.limits = Levels(levels), host, port, limits or Limits()
         self.turns = Turns()
         self._token, self._pages = token, pages
         self._clients: set[Client] = set()

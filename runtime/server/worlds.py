@@ -112,6 +112,10 @@ class Worlds:
     def tell(self, hosted: HostedWorld) -> None:
         """Send events and the newest state to all members."""
         self.tell_events(hosted)
+        loaded, dropped = hosted.chunks_changed()
+        if loaded or dropped:
+            changed = {"type": "chunks", "world": hosted.name, "loaded": loaded, "dropped": dropped}
+            self.announce(hosted, changed)
         come, gone = hosted.strangers()
         for name in gone:
             self.announce(hosted, {"type": "gone", "world": hosted.name, "agent": name})

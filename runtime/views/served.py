@@ -18,10 +18,15 @@ from runtime.views.window import Moment
 __all__ = ["ServedWorld"]
 
 
+_NO_GRAPH: dict[str, Any] = dict.fromkeys(
+    ("positions", "radii", "edges", "rim", "normal", "height", "affordances"), ()
+)
+
+
 class ServedWorld:
     """The world called ``name`` on the server at ``address`` (ws://…), by default the only one. ``name``: as
-    on the server. ``level``: its level's name. Raises `RuntimeInputError` if there is no server, it
-    refuses the ``token``, or there is no such world.
+    on the server. ``level``: what is drawn of its level; of an open world the chunks that are loaded.
+    Raises `RuntimeInputError` if there is no server, it refuses the ``token``, or there is no such world.
     """
 
     def __init__(self, address: str, name: str | None = None, token: str = "") -> None:
@@ -39,6 +44,8 @@ class ServedWorld:
         self._looks = Looks()
         self._time: float | None = None
         self._gone = False
+        self._chunks: dict[str, dict[str, Any]] = {}
+        self._due: list[tuple[list[str], list[str]]] = []  # chunks loaded and dropped, not shown yet
         try:
             self._socket = connect(address, compression=None, max_size=None)
         except (OSError, WebSocketException, ValueError) as error:
@@ -48,11 +55,15 @@ class ServedWorld:
             self.name = _chosen(address, worlds, name)
             joined = self._ask("join", world=self.name, states="changes")
             self._figures.update({each["name"]: _figure(each) for each in joined["agents"]})
-            mesh, graph = (self._ask(kind, level=joined["level"]) for kind in ("level", "graph"))
+            self._level_name = joined["level"]
+            if joined["loaded"]:
+                self._change_chunks(joined["loaded"], [])
+            else:
+                mesh, graph = (self._ask(kind, level=joined["level"]) for kind in ("level", "graph"))
+                self.level = _level(mesh, graph)
         except BaseException:
             self.close()
             raise
-        self.level = _level(mesh, graph)
 
     def moment(self) -> Moment | None:
         """The newest state, once there is one; None if the world or its server is gone."""
@@ -61,6 +72,8 @@ class ServedWorld:
                 self._heed(self._hear())
             if self._gone or self._time is None:
                 return None
+            while self._due:
+                self._change_chunks(*self._due.pop(0))
             now, self._time = self._time, None
             return self._seen(now)
         except self._closed:
@@ -104,6 +117,20 @@ class ServedWorld:
             told = {}
         return PathTrace(*(np.reshape(told.get(line, ()), (-1, 3)) for line in ("raw", "pulled", "smooth")))
 
+    def _change_chunks(self, loaded: Sequence[str], dropped: Sequence[str]) -> None:
+        """Show the chunks of an open world that are loaded now, without a graph."""
+        for name in dropped:
+            self._chunks.pop(name, None)
+        for name in loaded:
+            self._chunks[name] = self._ask("chunk", level=self._level_name, chunk=name)
+        vertices = [np.reshape(each["vertices"], (-1, 3)) for each in self._chunks.values()]
+        first = np.cumsum([0, *(len(each) for each in vertices)])
+        faces = [
+            np.reshape(each["faces"], (-1, 3)) + start
+            for each, start in zip(self._chunks.values(), first[:-1], strict=True)
+        ]
+        self.level = _level({"vertices": np.concatenate(vertices), "faces": np.concatenate(faces)}, _NO_GRAPH)
+
     # --- messages
     def _ask(self, kind: str, **fields: Any) -> dict[str, Any]:
         """The result of a request. Raises `RuntimeInputError` with the server's reason."""
@@ -133,6 +160,8 @@ class ServedWorld:
                 self._numbered[number].move(indices, values)
         elif message["type"] == "agent":
             self._figures[message["agent"]["name"]] = _figure(message["agent"])
+        elif message["type"] == "chunks":
+            self._due.append((message["loaded"], message["dropped"]))
         elif message["type"] == "gone":
             self._gone |= message["agent"] is None
             self._figures.pop(message["agent"], None)

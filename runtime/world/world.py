@@ -383,7 +383,8 @@ class World:
             )
         if not world.is_loaded(place)[0]:
             raise RuntimeInputError(
-                f"{place.tolist()} is not loaded; call keep_around(places) of the world first"
+                f"{place.tolist()} is not loaded; call keep_around(places) of the world first, or let a "
+                "player be there"
             )
 
     def admit(self, body: str, name: str, state: Any) -> Agent:

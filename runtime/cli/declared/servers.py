@@ -23,7 +23,11 @@ from runtime.cli.starting import begin, finish, reads
 
 def serve(
     levels: Annotated[
-        list[Path], typer.Argument(callback=reads, help="Mesh files, or graphs written by `surefoot bake`.")
+        list[Path],
+        typer.Argument(
+            callback=reads,
+            help="Mesh files, graphs written by `surefoot bake`, or folders of open worlds.",
+        ),
     ],
     host: Annotated[
         str, typer.Option(help="Address to listen on; any other than this machine needs --token.")
@@ -35,6 +39,9 @@ def serve(
     pages: Annotated[Path | None, typer.Option(help="Folder of web pages to serve over HTTP.")] = None,
     up: UpOption = None,
     scale: ScaleOption = None,
+    radius: Annotated[
+        float, typer.Option(help="[m] Of open worlds: how far around players chunks are loaded.")
+    ] = 250.0,
     dis: DisOption = None,
     dis_listen: DisListenOption = None,
     dis_name: DisNameOption = "1:1:1",
@@ -46,7 +53,7 @@ def serve(
     world that a client creates talks to other simulators."""
     commands = begin()
     line = dis_line(dis, dis_listen, dis_name, dis_origin, multicast, broadcast)
-    commands.serve_worlds(levels, up, scale, host, port, token, pages, line)
+    commands.serve_worlds(levels, up, scale, radius, commands.Address(host, port, token, pages), line)
 
 
 class DisAction(StrEnum):

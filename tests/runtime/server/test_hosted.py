@@ -12,7 +12,8 @@ from runtime import RuntimeInputError, World
 from runtime.bodies.remote_figures import told_state
 from runtime.dis.dead_reckoning import Motion
 from runtime.server.client import Client
-from runtime.server.hosted import HostedWorld, graph_message, level_message, skeleton, way_message
+from runtime.server.hosted import HostedWorld, skeleton, way_message
+from runtime.server.levels import graph_message, mesh_message
 from runtime.server.limits import Limits
 from runtime.server.outbox import Outbox
 from runtime.server.worlds import Worlds
@@ -120,9 +121,9 @@ def test_an_agent_that_is_not_there_is_named_with_those_that_are(hosted):
 
 def test_messages_hold_plain_values_of_the_level_and_the_figure(hosted, graph):
     ada = hosted.spawn("dog", (5.0, 3.0, 0.0), 0.0, "rex")
-    for message in (skeleton(ada), level_message(graph), graph_message(graph)):
+    for message in (skeleton(ada), mesh_message(graph.terrain), graph_message(graph)):
         assert json.loads(json.dumps(message, allow_nan=False)) == message
-    assert np.array_equal(level_message(graph)["faces"], graph.terrain.faces)
+    assert np.array_equal(mesh_message(graph.terrain)["faces"], graph.terrain.faces)
     assert skeleton(ada)["bodies"] == list(ada.figure.bodies)
     assert way_message(ada) == {"raw": [], "pulled": [], "smooth": []}
 

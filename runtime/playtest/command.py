@@ -122,6 +122,9 @@ def _show(outcome: Outcome, difference: Difference | None, written: list[Path]) 
     console.print(
         f"{verdict}, {notes} note{'s' * (notes != 1)}; {covered:.0f} % of {report.reachable:.0f} m² visited"
     )
+    if report.chunks is not None:
+        loaded = report.chunks.count - len(report.chunks.not_loaded)
+        console.print(f"bots had {loaded} of {report.chunks.count} chunks loaded")
     if difference is not None:
         new, gone, kept = len(difference.new), len(difference.gone), len(difference.kept)
         console.print(f"since the earlier report: {new} new, {gone} gone, {kept} as before")

@@ -2,6 +2,7 @@
 
 import math
 from collections import deque
+from copy import copy
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -130,7 +131,7 @@ class CapsuleMover:
 
 
 class WorldMover:
-    """A body of `runtime.World` that has a world to itself."""
+    """A body of `runtime.World` that has a world to itself; of an open world that is loaded around it."""
 
     def __init__(self, site: Site) -> None:
         self._site = site
@@ -143,7 +144,7 @@ class WorldMover:
         return np.array(self._poses, dtype=np.float32)
 
     def appear(self, place: np.ndarray, heading: float) -> None:
-        self.world = World(self._site.graph)
+        self.world = self._world_around(place)
         headings = self._headings(place, heading)
         for each in headings:
             try:
@@ -152,8 +153,21 @@ class WorldMover:
             except RuntimeInputError:  # no room for its head beside a wall
                 if each == headings[-1]:
                     raise
+        if self._site.open_world is not None:
+            self.world.players = [self._agent]
         self.place = self._agent.position
         self._poses.clear()
+
+    def _world_around(self, place: np.ndarray) -> World:
+        """A world in which it can appear at ``place`` (3,)."""
+        around = self._site.open_world
+        if around is None:
+            return World(self._site.graph)
+        if self.world is not None:  # not all chunks are others than before
+            around = self.world.open_world or around
+        around = copy(around)
+        around.change(around.next_changes(place, len(around.chunks)))
+        return World(around)
 
     def _headings(self, place: np.ndarray, wanted: float) -> list[float]:
         """Headings for one who appears, who has no trail to back out along: first those with room ahead, the
@@ -174,7 +188,7 @@ class WorldMover:
         planned = planned_time(route, speed) if agent.status != "blocked" else 0.0
         track = [(0.0, *before)]
         cleared = -1
-        while agent.moving and world.time - begun < time_limit:
+        while (agent.moving or agent.status == "waiting") and world.time - begun < time_limit:
             for _ in range(_POSES):
                 world.step(POSED)
                 self._poses.append(agent.pose.transforms)

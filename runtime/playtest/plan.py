@@ -11,7 +11,8 @@ routes:
   - {from: gate, to: stage, at_most: 40.0}
 ```
 
-Everything may be left out. ``level.obj`` is played by ``level.playtest.yaml`` when there is one.
+Everything may be left out. ``level.obj`` is played by ``level.playtest.yaml`` when there is one, and the open
+world in the folder ``city.world`` by ``city.playtest.yaml``.
 """
 
 import math
@@ -86,6 +87,8 @@ class Plan(_Strict):
     """The content of a playtest file."""
 
     character: CharacterSpec = CharacterSpec()
+    radius: Annotated[float, Gt(0.0), Le(1e5)] = 250.0
+    """[m] Of an open world: how far around a bot chunks are loaded."""
     spawns: Annotated[list[SpawnSpec], Len(0, 1000)] = []
     places: Annotated[list[PlaceSpec], Len(0, 1000)] = []
     routes: Annotated[list[RouteSpec], Len(0, 1000)] = []

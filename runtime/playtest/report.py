@@ -15,7 +15,7 @@ from surefoot.files.atomic_write import whole_file
 from surefoot.files.jsonfile import read_json
 from surefoot.files.record_types import wrong_field
 
-__all__ = ["FORMAT", "Report", "Setup", "fault_of", "read_report", "write_report"]
+__all__ = ["FORMAT", "Chunks", "Report", "Setup", "fault_of", "read_report", "write_report"]
 
 FORMAT = "surefoot playtest 2"
 
@@ -32,6 +32,15 @@ class Setup:
     bots: int
     seconds: float
     seed: int
+
+
+@dataclass(frozen=True)
+class Chunks:
+    """Of an open world how many chunks there are, and the names of those ``not_loaded``: no bot came so near
+    that it would have them loaded."""
+
+    count: int
+    not_loaded: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -54,6 +63,8 @@ class Report:
     patches: tuple[tuple[float, float, float, int], ...]
     reachable: float
     """[m²] of floor that players can reach."""
+    chunks: Chunks | None = None
+    """None where the level is no open world."""
 
     @property
     def held(self) -> bool:
@@ -78,6 +89,7 @@ class Report:
             "crossings": [asdict(each) for each in self.crossings],
             "journeys": [asdict(each) for each in self.journeys],
             **rest,
+            **({} if self.chunks is None else {"chunks": asdict(self.chunks)}),
         }
 
 
@@ -109,8 +121,11 @@ def read_report(path: str | os.PathLike[str]) -> Report:
             coverage=tuple((t, share) for t, share in values["coverage"]),
             patches=tuple((x, y, z, n) for x, y, z, n in values["patches"]),
             reachable=values["reachable"],
+            chunks=_chunks_of(values.get("chunks")),
         )
         parts = (report, report.setup, *report.faults, *report.crossings, *report.journeys)
+        if report.chunks is not None:
+            parts = (*parts, report.chunks)
         for part in (*parts, *(seen for fault in report.faults for seen in fault.sightings)):
             if (field := wrong_field(part)) is not None:
                 raise TypeError(f"{field} of a {type(part).__name__} is of a wrong type")
@@ -119,6 +134,10 @@ def read_report(path: str | os.PathLike[str]) -> Report:
         return report
     except (KeyError, TypeError, ValueError) as error:
         raise RuntimeInputError(f"{file}: not a whole report of a playtest: {error}; run it again") from None
+
+
+def _chunks_of(values: Any) -> Chunks | None:
+    return None if values is None else Chunks(values["count"], tuple(values["not_loaded"]))
 
 
 def fault_of(values: Mapping[str, Any]) -> Fault:

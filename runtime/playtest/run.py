@@ -8,7 +8,8 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from copy import copy
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ from runtime.playtest.holes import find_holes
 from runtime.playtest.kept_runs import KeptRuns
 from runtime.playtest.observation import crossings, journeys, observed, with_sightings
 from runtime.playtest.plan import LoadedPlan, plan_path
-from runtime.playtest.report import Report, Setup
+from runtime.playtest.report import Chunks, Report, Setup
 from runtime.playtest.site import Site
 from runtime.playtest.tally import Tally
 from surefoot.progress import Progress
@@ -77,7 +78,8 @@ def playtest(
     checkpoint: Path | None = None,
     progress: Progress | None = None,
 ) -> Outcome:
-    """Playtest ``level`` (a mesh file) with ``bots`` bots of ``body`` for ``seconds`` [s] each.
+    """Playtest ``level`` (a mesh file, or the folder of an open world) with ``bots`` bots of ``body`` for
+    ``seconds`` [s] each.
 
     ``plan`` is the playtest file; by default LEVEL.playtest.yaml where there is one. ``up`` and ``scale`` as
     for `navmesh.Terrain.load`. Bots run in ``processes`` of this machine, or on the ``cluster`` with that
@@ -114,7 +116,7 @@ def playtest(
     packed = b"" if place == 1 and checkpoint is None else _packed(site.graph)
     kept = None if checkpoint is None else KeptRuns(checkpoint, _identity(stage, packed))
     patches, _ = patches_of(site, reached)
-    tally = Tally(patches)
+    tally = Tally(patches, site.open_world)
     begun = time.perf_counter()
     with progress.stage(f"{bots} bots play") as bar:
         for done, run in enumerate(_all_runs(stage, packed, place, kept), start=1):
@@ -134,6 +136,7 @@ def playtest(
         coverage=tally.coverage.curve(seconds),
         patches=tally.coverage.visits(),
         reachable=round(float(site.areas[reached].sum()), 2),
+        chunks=_chunks(site, tally),
     )
     return Outcome(report, tally, stage, wall, kept)
 
@@ -142,16 +145,47 @@ def open_stage(setup: Setup) -> Stage:
     """The stage of ``setup``."""
     plan = LoadedPlan.read(setup.plan)
     character = plan.character(character_of(setup.body))
-    site = Site(_build(setup, character), character)
+    site = _open_site(setup, plan, character) if Path(setup.level).is_dir() else _site(setup, character)
     return Stage(setup, site, plan, make_goals(site, plan, np.random.default_rng(setup.seed)))
 
 
-def _build(setup: Setup, character: Character) -> navmesh.NodeGraph:
+def _site(setup: Setup, character: Character) -> Site:
     terrain = navmesh.Terrain.load(setup.level, up=setup.up, scale=setup.scale)
     beside = navmesh.tags_path(setup.level)
     # tags are of obstacles; what a body without skills steps over may be none
     tags = navmesh.load_tags(beside) if character.skills and beside.is_file() else None
-    return navmesh.NodeGraph.build(terrain, character.rules, character.obstacle_rules(), tags=tags)
+    graph = navmesh.NodeGraph.build(terrain, character.rules, character.obstacle_rules(), tags=tags)
+    return Site(graph, character)
+
+
+def _open_site(setup: Setup, plan: LoadedPlan, character: Character) -> Site:
+    """The site of an open world, of which everything is loaded to prove faults and to choose goals."""
+    for name in ("up", "scale"):
+        if getattr(setup, name) is not None:
+            raise RuntimeInputError(f"{setup.level}: an open world is as it was baked; leave out {name}")
+    for name in ("height", "max_step", "max_slope_deg"):
+        if getattr(plan.plan.character, name) is not None:
+            problem = f"character.{name}: an open world has the rules that it was baked with; leave this out"
+            raise plan.error(("character", name), problem)
+    world = navmesh.OpenWorld(setup.level, plan.plan.radius)
+    everything = copy(world)
+    everything.change(everything.chunks)
+    graph = everything.graph
+    if graph is None:
+        raise RuntimeInputError(f"{setup.level}: nothing there can be walked on")
+    if character.radius > world.radii[-1]:
+        raise RuntimeInputError(
+            f"{setup.level}: a {character.noun} has a radius of {character.radius:g} m; the open world was "
+            f"baked for bodies of up to {world.radii[-1]:g} m"
+        )
+    return Site(graph, replace(character, rules=graph.rules), world)
+
+
+def _chunks(site: Site, tally: Tally) -> Chunks | None:
+    if site.open_world is None:
+        return None
+    names = site.open_world.chunks
+    return Chunks(len(names), tuple(name for name in names if name not in tally.loaded))
 
 
 def _identity(stage: Stage, graph: bytes) -> str:
@@ -198,7 +232,7 @@ def _runs(stage: Stage, graph: bytes, place: Place, numbers: Sequence[int]) -> I
         yield (run_bot(site, goals, setup.seed, number, setup.seconds) for number in numbers)
         return
     most = place if isinstance(place, str) else min(place, len(numbers))
-    common = (graph, site.character, goals, setup.seed, setup.seconds)
+    common = (graph, site.character, site.open_world, goals, setup.seed, setup.seconds)
     with worker_pool(most, _begin, common) as pool:
         yield pool.imap(_run_one, numbers)
 
@@ -206,12 +240,19 @@ def _runs(stage: Stage, graph: bytes, place: Place, numbers: Sequence[int]) -> I
 _player: tuple[Site, Goals, int, float] | None = None  # of a worker process
 
 
-def _begin(graph: bytes, character: Character, goals: Goals, seed: int, seconds: float) -> None:
+def _begin(
+    graph: bytes,
+    character: Character,
+    open_world: navmesh.OpenWorld | None,
+    goals: Goals,
+    seed: int,
+    seconds: float,
+) -> None:
     global _player
     with tempfile.TemporaryDirectory(prefix="surefoot-") as folder:
         file = Path(folder) / "graph.npz"
         file.write_bytes(graph)
-        site = Site(navmesh.NodeGraph.load(file), character)
+        site = Site(navmesh.NodeGraph.load(file), character, open_world)
     _player = site, goals, seed, seconds
 
 

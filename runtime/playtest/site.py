@@ -19,13 +19,19 @@ class Site:
     """A graph and a character. A *part* is what can be walked from one of its places to any other.
 
     ``node_part`` (m,) int: the part of each node, -1 where the body does not fit. ``areas`` (p,) float64
-    [m²]: room for the body's middle in each part. ``ways`` (k,) int: the typed links that the body can take;
+    [m²]: room for the body's middle in each part. ``open_world``: what the graph is the whole of, with
+    nothing loaded; None for any other level. ``ways`` (k,) int: the typed links that the body can take;
     ``way_from`` and ``way_to`` (k,) int: the parts that they join.
     """
 
-    def __init__(self, graph: navmesh.NodeGraph, character: Character) -> None:
+    def __init__(
+        self,
+        graph: navmesh.NodeGraph,
+        character: Character,
+        open_world: navmesh.OpenWorld | None = None,
+    ) -> None:
         graph = self.graph = graph.without_zones()
-        self.character = character
+        self.character, self.open_world = character, open_world
         radius = character.radius
         fits = graph.radii >= radius
         self.node_part = np.full(len(graph), -1)

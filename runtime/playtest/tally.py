@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+import navmesh
 from runtime.playtest.bots import BotRun, Trouble, Visit
 from runtime.playtest.coverage import Coverage
 from runtime.playtest.fault import Sighting
@@ -14,6 +15,7 @@ from runtime.playtest.wording import triple
 __all__ = ["Cluster", "Tally", "sighted"]
 
 _NEAR = 2.0  # [m] troubles of one kind nearer to each other than this are one
+_AT_ONCE = 4096  # moments of a track that are looked at together
 _FAULT = {"fell": "fell", "stuck": "stuck", "lost": "stuck", "bumped": "never_cleared", "no way": "blocked",
           "trapped": "trap"}  # fmt: skip
 
@@ -33,10 +35,13 @@ class Cluster:
 
 class Tally:
     """Add runs in the order of the bots' numbers. ``patches`` (n, 3) [m]: those of the floor that count for
-    coverage."""
+    coverage; ``open_world``: what is played, with nothing loaded, None for any other level."""
 
-    def __init__(self, patches: np.ndarray) -> None:
+    def __init__(self, patches: np.ndarray, open_world: navmesh.OpenWorld | None = None) -> None:
         self.coverage = Coverage(patches)
+        self.loaded: set[str] = set()
+        """Names of the open world's chunks that were so near to a bot that it had them loaded."""
+        self._open_world = open_world
         self.seconds = 0.0
         """Of all bots together."""
         self.visits: list[Visit] = []
@@ -48,6 +53,11 @@ class Tally:
     def add(self, run: BotRun) -> None:
         """Add a finished run."""
         self.coverage.add(run.track)
+        if self._open_world is not None:
+            for begin in range(0, len(run.track), _AT_ONCE):
+                places = run.track[begin : begin + _AT_ONCE, 1:]
+                near = self._open_world.next_changes(places, len(self._open_world.chunks))
+                self.loaded.update(near)
         self.seconds += run.seconds
         self.visits += run.visits
         for each in run.passings:

@@ -12,7 +12,11 @@ from runtime.cli.starting import begin, finish, reads
 def playtest(
     context: typer.Context,
     level: Annotated[
-        Path, typer.Argument(callback=reads, help=f"{MESH_HELP} Or a suite of playtests (.yaml).")
+        Path,
+        typer.Argument(
+            callback=reads,
+            help=f"{MESH_HELP} Or the folder of an open world, or a suite of playtests (.yaml).",
+        ),
     ],
     bots: Annotated[int, typer.Option(min=0, help="How many bots.")] = 64,
     seconds: Annotated[float, typer.Option(help="[s] How long each bot plays.")] = 300.0,

@@ -21,6 +21,7 @@ from typing import Annotated, Literal
 from annotated_types import Ge, Gt, Le, Len
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
+from navmesh.streaming.world_folder import INDEX
 from runtime.bodies.registry import body_names
 from runtime.missions.model import Name
 from runtime.playtest.run import BODY, MOST_BOTS
@@ -38,7 +39,7 @@ class SuiteLevel(_Strict):
     """A level of the suite."""
 
     file: str
-    """A mesh file."""
+    """A mesh file, or the folder of an open world."""
     name: Name | None = None
     """Of its row and its folder; by default the file's name."""
     up: Literal["y", "z"] | None = None
@@ -91,7 +92,7 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     names: set[str] = set()
     for k, level in enumerate(suite.levels):
         for key, file in (("file", level.file), ("plan", level.plan)):
-            if file is not None and not (beside / file).is_file():
+            if file is not None and not (beside / file).is_file() and not (beside / file / INDEX).is_file():
                 raise located.error(("levels", k, key), f"levels[{k}].{key}: no such file: {beside / file}")
         name = _name(level)
         if name in names:

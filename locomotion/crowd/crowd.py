@@ -278,7 +278,7 @@ class Crowd:
             self._find_gates()
 
     def _find_gates(self) -> Gates:
-        gates = self._gates = find_gates(self.graph.surface, self._net, ABREAST * self._widest)
+        gates = self._gates = find_gates(self.graph, ABREAST * self._widest)
         for index in range(len(self)):
             self._trace_gates(index)
         return gates

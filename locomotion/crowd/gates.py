@@ -1,8 +1,7 @@
 """Gates: passages where fewer than three bodies fit side by side, found in the clearance field.
 
-A throat is a pair of linked cells whose nearest walls lie on opposite sides. Connected throats, with all
-cells covered by their discs, form one gate; whoever uses the passage crosses its discs. Doors and long
-corridors are gates.
+Connected throats (`locomotion.crowd.throats`), with all cells covered by their discs, form one gate; whoever
+uses the passage crosses its discs. Doors and long corridors are gates.
 """
 
 from typing import Any, NamedTuple
@@ -12,10 +11,13 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
+import navmesh
+from locomotion.crowd.throats import throats_of
 from navmesh.disjoint_sets import root
+from navmesh.graph.kernel_arrays import net_of
 from navmesh.surface.clearance_field import centre_of
 from navmesh.surface.columns import column_of
-from navmesh.surface.recall import nearest_of, nearly_nearest_of
+from navmesh.surface.recall import nearest_of
 from navmesh.surface.storeys import linked, over
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
@@ -24,10 +26,6 @@ __all__ = ["ABREAST", "Gates", "find_gates"]
 
 ABREAST = 3.25
 """A passage is a gate for a body if half its width is less than this many of the body's radii."""
-_OPPOSITE = -0.5
-"""Cosine of the angle from which two walls are on opposite sides."""
-_ROUNDING = 1e-6
-"""By which cosines of nearly the nearest places may be wrong."""
 
 
 class Gates(NamedTuple):
@@ -43,35 +41,6 @@ class Gates(NamedTuple):
     """(covered, 2) unit vector along the passage, with a consistent sense within a short gate."""
     width: NDArray[np.float64]
     """(gates,) [m] half the least width."""
-
-
-@kernel(error_model="numpy", forceinline=True)
-def _cosine(net, ax, ay, a, bx, by, b):
-    """Between the directions of the places (ax, ay) and (bx, by) as seen from the cells a and b."""
-    near, other = max(net.clearance[a], 1e-9), max(net.clearance[b], 1e-9)
-    return ax / near * (bx / other) + ay / near * (by / other)
-
-
-@kernel(error_model="numpy")
-def _mark_throats(net, limit, found):
-    """Mark in ``found`` (cells,) bool the throats narrower than ``limit`` [m] from the middle to the wall."""
-    for c in range(found.shape[0]):
-        if not net.clearance[c] < limit:
-            continue
-        x, y = nearly_nearest_of(net, c)
-        for way in range(2):
-            n = linked(net, c, way)
-            if n < 0 or not net.clearance[n] < limit or (found[c] and found[n]):
-                continue
-            if net.source[c] == net.source[n] and min(net.clearance[c], net.clearance[n]) >= 2.0 * net.cell:
-                continue  # both look to the same place
-            px, py = nearly_nearest_of(net, n)
-            if _cosine(net, x, y, c, px, py, n) >= _OPPOSITE + _ROUNDING:
-                continue
-            ax, ay = nearest_of(net, c)
-            bx, by = nearest_of(net, n)
-            if _cosine(net, ax, ay, c, bx, by, n) < _OPPOSITE:
-                found[c] = found[n] = True
 
 
 @kernel(error_model="numpy", forceinline=True)
@@ -142,20 +111,31 @@ def _among(throats: NDArray[np.int64], cells: NDArray[np.int64]) -> NDArray[np.i
     return np.where(throats[at] == cells, at, -1)
 
 
-def _joined(surface: Surface, throats: NDArray[np.int64]) -> csr_array:
+@allocating_kernel(error_model="numpy")
+def _pairs(net, throats):
+    """(k, 2) int64: which of ``throats`` are linked, straight or across a corner, each pair both ways."""
+    pairs = np.empty((8 * throats.size, 2), np.int64)
+    count = 0
+    for t in range(throats.size):
+        column = column_of(net, throats[t])
+        for way in range(4):
+            one = over(net, throats[t], column, way)
+            if one < 0:
+                continue
+            for other in (one, linked(net, one, (way + 1) % 4)):
+                at = np.searchsorted(throats, other)
+                if at < throats.size and throats[at] == other:
+                    pairs[count, 0], pairs[count, 1] = t, at
+                    count += 1
+    return pairs[:count].copy()
+
+
+def _joined(surface: Surface, net: Any, throats: NDArray[np.int64]) -> csr_array:
     """The throats as a graph of links, straight or across a corner."""
-    source, target = [], []
-    for way in range(4):
-        one = surface.links(throats)[:, way]
-        corner = np.where(one >= 0, surface.links(one)[:, (way + 1) % 4], -1)
-        for cells in (one, corner):
-            at = _among(throats, cells)
-            source.append(np.flatnonzero(at >= 0))
-            target.append(at[at >= 0])
-    ends = np.concatenate(source), np.concatenate(target)
+    source, target = _pairs(net, throats).T
     centres = surface.centers(throats)
-    lengths = np.linalg.norm(centres[ends[0]] - centres[ends[1]], axis=1)
-    return csr_array((lengths, ends), shape=(len(throats), len(throats)))
+    lengths = np.linalg.norm(centres[source] - centres[target], axis=1)
+    return csr_array((lengths, (source, target)), shape=(len(throats), len(throats)))
 
 
 def _half_widths(surface: Surface, throats: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -170,16 +150,13 @@ def _first_by(key: NDArray[Any], group: NDArray[Any]) -> NDArray[np.int64]:
     return order[np.searchsorted(group[order], np.arange(group.max() + 1))]
 
 
-def find_gates(surface: Surface, net: Any, limit: float) -> Gates:
-    """The gates narrower than ``limit`` [m] from the middle to the wall. ``net``: the `NET` of the surface's
-    graph."""
-    found = np.zeros(len(surface), np.bool_)
-    _mark_throats(net, limit, found)
-    throats = np.flatnonzero(found)
+def find_gates(graph: navmesh.NodeGraph, limit: float) -> Gates:
+    """The gates of a graph narrower than ``limit`` [m] from the middle to the wall."""
+    surface, net, throats = graph.surface, net_of(graph), throats_of(graph, limit)
     row = np.full(len(surface), -1, np.int32)
     if len(throats) == 0:
         return Gates(row, np.empty(0, np.int32), np.empty(0), np.empty((0, 2)), np.empty(0))
-    joined = _joined(surface, throats)
+    joined = _joined(surface, net, throats)
     count, part = connected_components(joined, directed=False)
     parent = np.arange(count, dtype=np.int32)
     by = _paint(net, throats, part, row, parent)

@@ -1,6 +1,6 @@
 """What queries worked out on a graph before an update, for the graph after it to take over: portals and parts
-by radius. It is renewed when a query asks for it, not by the update (`navmesh.graph.portal_changes`,
-`navmesh.graph.part_changes`)."""
+by radius, and where crowds find passages narrow, by width. It is renewed when a query asks for it, not by the
+update (`navmesh.graph.portal_changes`, `navmesh.graph.part_changes`, `locomotion.crowd.throats`)."""
 
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Changes", "Earlier", "carry_over", "earlier_of"]
 
-_KINDS = "portals", "parts"
+_KINDS = "portals", "parts", "throats"
 _MOST = 16
 """Changed windows after which what nobody asked for is not kept any longer."""
 
@@ -37,7 +37,7 @@ class Changes:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Earlier:
-    """What was known of a graph, for one radius, before some changes."""
+    """What was known of a graph, for one radius or width, before some changes."""
 
     known: tuple[np.ndarray, ...]
     column_start: np.ndarray
@@ -65,7 +65,7 @@ def carry_over(before: "NodeGraph", after: "NodeGraph", changes: Changes) -> Non
 
 
 def earlier_of(graph: "NodeGraph", kind: str, radius: float) -> Earlier | None:
-    """What the graph can take over of a ``kind``, portals or parts, for a body of ``radius`` [m]: once."""
+    """What the graph can take over of a ``kind``, one of `_KINDS`, for a body of ``radius`` [m]: once."""
     return graph.cache.get(_waiting(kind), {}).pop(radius, None)
 
 

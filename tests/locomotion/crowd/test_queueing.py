@@ -160,7 +160,7 @@ def test_a_route_through_the_corridor_has_one_gate_both_ways():
     graph = corner()
     crowd = Crowd(graph)
     walker = crowd.add((2.0, 2.5, 0.0))
-    net, gates = net_of(graph), find_gates(graph.surface, net_of(graph), ABREAST * 0.3)
+    net, gates = net_of(graph), find_gates(graph, ABREAST * 0.3)
     found = []
     for goal in ((15.0, 2.5, 0.0), (2.0, 2.5, 0.0)):
         walker.go_to([goal])

@@ -18,7 +18,6 @@ from navmesh.surface.splicing import runs_of
 from navmesh.surface.surface import Surface
 from navmesh.surface.windows import columns_in
 from surefoot.kernels import allocating_kernel, kernel
-from surefoot.reused_memory import empty
 
 __all__ = ["Nodes", "RenewedNodes", "boxes_of", "hull", "renew_nodes"]
 
@@ -158,7 +157,7 @@ def _numbered(
     start, _ = columns_in(surface.column_start, area, surface.shape[1])
     patch = Patch(surface.resolution, *area[:2].tolist(), *(area[2:] - area[:2]).tolist())
     runs, count = runs_of(before.column_start, start, window, patch, surface.shape[1])
-    label = empty(count, np.int32)
+    label = np.empty(count, np.int32)
     _renumber(old.label, np.concatenate([[-1], number]).astype(np.int32), runs, label)
     label[chosen.where[chosen.within]] = local[chosen.nodes.label[chosen.within]]
     nodes = Nodes(

@@ -15,7 +15,6 @@ from navmesh.surface.splicing import copy_run, first_list, moved_list, renumber_
 from navmesh.surface.surface import Surface
 from navmesh.surface.windows import cells_within
 from surefoot.kernels import allocating_kernel, kernel
-from surefoot.reused_memory import empty
 
 __all__ = [
     "cells_in",
@@ -60,7 +59,7 @@ def renew_surface(
     left, near, right, far = new.window
     patch = Patch(whole.side, left, near, right - left, far - near)
     runs, count = runs_of(old.column_start, new.cells.column_start, new.window, patch, whole.ny)
-    clearance, source, choice = empty(count), empty(count, np.int32), empty(count, np.uint8)
+    clearance, source, choice = np.empty(count), np.empty(count, np.int32), np.empty(count, np.uint8)
     _splice_values(
         old.list_cell, old.clearance, old.source, old.choice, moves,
         new.nearest, new.source, new.choice, _lists_in_whole(new.cells.list_cell, cells.list_cell, runs),

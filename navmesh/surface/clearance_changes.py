@@ -81,9 +81,8 @@ def renew_clearance(
             )  # fmt: skip
             if not disturbed.any():
                 known, source, choice = now
-                reach = _grown(
-                    changed, np.ones(4, np.int64), edge
-                )  # `settle_clearance` looks so much farther
+                # `settle_clearance` looks a column farther
+                reach = _grown(changed, np.ones(4, np.int64), edge)
                 return Renewed(rectangle, tuple(reach.tolist()), cells, known[-1], source[-1], choice)
         extent = np.tile(inner[2:] - inner[:2], 2)
         inner = _grown(inner, np.where(disturbed, np.ceil(_GROWTH * extent), 0).astype(np.int64), edge)

@@ -1,6 +1,7 @@
 """What a walk or run looks like, noted at every physics step."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import mujoco
@@ -15,7 +16,7 @@ from locomotion.human.human import Human
 from locomotion.training.policies.trial import PolicyTrial
 from surefoot.kernels import allocating_kernel
 
-__all__ = ["Record", "learned_walk", "planned_walk"]
+__all__ = ["Record", "learned_walk", "planned_walk", "tick_in_steps"]
 
 _STANDS, _WARM_UP = 1.0, 5.0  # [s] that do not count
 
@@ -118,22 +119,29 @@ def learned_walk(skill: PolicySkill, speed: float, seconds: float, warm_up: floa
     return recorder.record(0, not held)
 
 
+def tick_in_steps(human: Human, twin: mujoco.MjData, note: Callable[[], None]) -> None:
+    """A tick of a person, simulated once more on ``twin``; ``note`` is called after each physics step."""
+    state = mujoco.mjtState.mjSTATE_INTEGRATION
+    before = np.empty(mujoco.mj_stateSize(human.model, state))
+    mujoco.mj_getState(human.model, human.data, before, state)
+    human.tick()
+    mujoco.mj_setState(human.model, twin, before, state)
+    twin.ctrl[:], twin.eq_active[:] = human.data.ctrl, human.data.eq_active
+    twin.mocap_pos[:] = human.data.mocap_pos
+    for _ in range(STEPS_PER_TICK):
+        mujoco.mj_step(human.model, twin)
+        note()
+
+
 def planned_walk(speed: float, seconds: float, warm_up: float = _WARM_UP) -> Record:
     """The same of the walk of `locomotion.gaits.walk`, or the run, along a straight line."""
     human = Human(None, clearing=(), rehearsals=0)
     human.reset(np.zeros(3), 0.0)
     human.follow(np.array([[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0]]), speed)
     data = mujoco.MjData(human.model)
-    recorder, state = _Recorder(human.model, data), mujoco.mjtState.mjSTATE_INTEGRATION
-    before = np.empty(mujoco.mj_stateSize(human.model, state))
+    recorder = _Recorder(human.model, data)
     for _ in range(round((warm_up + seconds) / CONTROL_DT)):
-        mujoco.mj_getState(human.model, human.data, before, state)
-        human.tick()
-        mujoco.mj_setState(human.model, data, before, state)
-        data.ctrl[:] = human.data.ctrl
-        for _ in range(STEPS_PER_TICK):
-            mujoco.mj_step(human.model, data)
-            recorder.note()
+        tick_in_steps(human, data, recorder.note)
         if human.data.qpos[2] < 0.6:
             return recorder.record(0, True)
     return recorder.record(round(warm_up / human.model.opt.timestep), False)

@@ -23,8 +23,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.gait_record import tick_in_steps
 from locomotion import MOVING, Human
-from locomotion.body.person import JOINT_NAMES, MASS, STEPS_PER_TICK, TIMESTEP
+from locomotion.body.person import JOINT_NAMES, MASS, TIMESTEP
 from locomotion.body_events import Cleared, TookOff
 from locomotion.gaits.run.layout import COM_VELOCITY
 from locomotion.skills.registry import skill_kinds
@@ -37,7 +38,6 @@ _BEFORE, _AFTER = round(1.0 / TIMESTEP), round(2.0 / TIMESTEP)  # steps
 _LONGEST = 40.0  # [s]
 _JOLT = 2  # steps over which an acceleration is taken
 _FAR = 0.3  # [m] beyond which distances of limbs are not worked out
-_STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 
 
 @dataclass(frozen=True)
@@ -60,22 +60,13 @@ class Meter:
     def __init__(self, human: Human) -> None:
         self.human, self.steps = human, list[Step]()
         self._model, self._data = human.model, mujoco.MjData(human.model)
-        self._before = np.empty(mujoco.mj_stateSize(human.model, _STATE))
         self._limbs = limbs_apart(human.model)
         bodies = human.index.bodies
         self._hands = [bodies[f"{side}_{part}"] for side in ("right", "left") for part in ("hand", "forearm")]
 
     def tick(self) -> None:
         """A tick of the person."""
-        human, model, data = self.human, self._model, self._data
-        mujoco.mj_getState(model, human.data, self._before, _STATE)
-        human.tick()
-        mujoco.mj_setState(model, data, self._before, _STATE)
-        data.ctrl[:], data.eq_active[:] = human.data.ctrl, human.data.eq_active
-        data.mocap_pos[:] = human.data.mocap_pos
-        for _ in range(STEPS_PER_TICK):
-            mujoco.mj_step(model, data)
-            self.steps.append(self._step())
+        tick_in_steps(self.human, self._data, lambda: self.steps.append(self._step()))
 
     def _step(self) -> Step:
         model, data, contact = self._model, self._data, self._data.contact

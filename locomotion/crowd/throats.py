@@ -25,7 +25,8 @@ _OPPOSITE = -0.5
 _ROUNDING = 1e-6
 """By which cosines of nearly the nearest places may be wrong."""
 _BESIDE = 2
-"""Columns beside a change in which throats may be others than before, and those that make them so."""
+"""Columns around a change that are looked at again: throats may be others than before in the first column
+beside it, and the links that make them so begin in the second at most."""
 
 
 def throats_of(graph: navmesh.NodeGraph, limit: float) -> NDArray[np.int64]:

@@ -18,7 +18,7 @@ from locomotion.data import PRECONDITIONS
 from locomotion.errors import LocomotionError
 from locomotion.preconditions.features import BEFORE, FEATURES
 from locomotion.preconditions.svm import Machine, odds_into
-from locomotion.skills.interface import HEIGHT_TOLERANCE
+from locomotion.skills.interface import covers
 from locomotion.skills.library import package_skill, skill_digest
 from locomotion.skills.registry import skill_kinds
 from surefoot.files.archive import write_archive
@@ -56,8 +56,7 @@ class Precondition:
     def covers(self, size: float) -> bool:
         """Whether an obstacle of this ``size`` [m] is one that it has learned; what was sampled beyond only
         says how odds fall towards the ends of that range."""
-        low, high = self.heights
-        return low - HEIGHT_TOLERANCE <= size <= high + HEIGHT_TOLERANCE
+        return covers(self.heights, size)
 
     def odds_before(self, features: NDArray[np.float64]) -> NDArray[np.float64]:
         """(k,) odds, 0 to 1, before the run-up to obstacles described by ``features`` (k, 4), see

@@ -23,6 +23,7 @@ from locomotion.skills.approach import ApproachPlan, ApproachWeights, plan_appro
 __all__ = [
     "ClearingSkill",
     "Clears",
+    "covers",
     "distance_to",
     "foot_distance",
     "plan_run_up",
@@ -106,11 +107,15 @@ class ClearingSkill(Clears, Protocol):
 def skill_for(skills: Sequence[ClearingSkill], obstacle: ObstacleAhead) -> ClearingSkill | None:
     """The skill that clears an obstacle, or None."""
     for skill in skills:
-        low, high = skill.heights
-        fits = low - HEIGHT_TOLERANCE <= obstacle.size <= high + HEIGHT_TOLERANCE
-        if fits and skill.affordance == obstacle.affordance:
+        if covers(skill.heights, obstacle.size) and skill.affordance == obstacle.affordance:
             return skill
     return None
+
+
+def covers(heights: tuple[float, float], size: float) -> bool:
+    """Whether a skill that has learned ``heights`` [m] clears an obstacle of this ``size`` [m]."""
+    low, high = heights
+    return low - HEIGHT_TOLERANCE <= size <= high + HEIGHT_TOLERANCE
 
 
 def skill_ranges(skills: Sequence[Clears]) -> dict[str, tuple[float, float]]:

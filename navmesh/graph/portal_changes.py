@@ -92,7 +92,8 @@ def _far(net, windows, radius):
 
 
 _SHUT, _FRESH = -1, -2
-"""What becomes of an edge: no portal, or one that has to be worked out. Else the row of its portal before."""
+"""Of an edge, instead of the row that its portal had before: it has no portal; its portal has to be worked
+out."""
 
 
 @allocating_kernel(error_model="numpy")

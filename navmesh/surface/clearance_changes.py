@@ -69,7 +69,8 @@ def renew_clearance(
         patch = Patch(whole.side, *outer[:2].tolist(), *(outer[2:] - outer[:2]).tolist())
         rectangle = tuple(outer.tolist())
         before, first = take(old, rectangle, whole.ny)
-        around_it = patch, field, whole, first, inner, np.array(window), _guarded(inner, edge)
+        limits = inner, np.array(window), _guarded(inner, edge)
+        around_it = patch, field, whole, first, *limits
         disturbed, *was = _swept(*_arrays(before), *around_it)
         if not disturbed.any():
             cells, _ = splice(before, fresh, _seen_from(patch, window), _patch_from(patch, around), patch.ny)
@@ -77,7 +78,7 @@ def renew_clearance(
             disturbed, changed = _differences(
                 before.column_start, before.list_cell, *was[:2],
                 cells.column_start, cells.list_cell, *now[:2],
-                patch, inner, np.array(window), _guarded(inner, edge),
+                patch, *limits,
             )  # fmt: skip
             if not disturbed.any():
                 known, source, choice = now

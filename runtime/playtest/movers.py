@@ -166,7 +166,7 @@ class WorldMover:
         if self.world is not None:  # not all chunks are others than before
             around = self.world.open_world or around
         around = copy(around)
-        around.change(around.next_changes(place, len(around.chunks)))
+        around.keep_around(place, len(around.chunks))
         return World(around)
 
     def _headings(self, place: np.ndarray, wanted: float) -> list[float]:

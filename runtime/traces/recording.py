@@ -47,8 +47,8 @@ class Recorder:
         return fresh
 
     def trace(self, report: dict) -> Trace:
-        """The whole recording, with a ``report`` of plain values. The level is as it is now; of an open world
-        everything that was loaded meanwhile."""
+        """The whole recording, with a ``report`` of plain values. Its level is the present one; of an
+        open world it has every chunk that was loaded during the recording."""
         agents = tuple(self._agent(name, agent) for name, agent in self._agents.items())
         return Trace(
             level=level_trace(self._everything()),

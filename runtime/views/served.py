@@ -2,10 +2,12 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
 
+import navmesh
 from locomotion.recorded.skeletons import LEVELS
 from locomotion.recorded_people.drawing import drawn
 from runtime.bodies.figure import Figure, Shapes
@@ -18,9 +20,7 @@ from runtime.views.window import Moment
 __all__ = ["ServedWorld"]
 
 
-_NO_GRAPH: dict[str, Any] = dict.fromkeys(
-    ("positions", "radii", "edges", "rim", "normal", "height", "affordances"), ()
-)
+_NO_GRAPH = {each.name: () for each in fields(LevelTrace)}
 
 
 class ServedWorld:
@@ -44,7 +44,7 @@ class ServedWorld:
         self._looks = Looks()
         self._time: float | None = None
         self._gone = False
-        self._chunks: dict[str, dict[str, Any]] = {}
+        self._chunks: dict[str, navmesh.Terrain] = {}
         self._due: list[tuple[list[str], list[str]]] = []  # chunks loaded and dropped, not shown yet
         try:
             self._socket = connect(address, compression=None, max_size=None)
@@ -122,14 +122,10 @@ class ServedWorld:
         for name in dropped:
             self._chunks.pop(name, None)
         for name in loaded:
-            self._chunks[name] = self._ask("chunk", level=self._level_name, chunk=name)
-        vertices = [np.reshape(each["vertices"], (-1, 3)) for each in self._chunks.values()]
-        first = np.cumsum([0, *(len(each) for each in vertices)])
-        faces = [
-            np.reshape(each["faces"], (-1, 3)) + start
-            for each, start in zip(self._chunks.values(), first[:-1], strict=True)
-        ]
-        self.level = _level({"vertices": np.concatenate(vertices), "faces": np.concatenate(faces)}, _NO_GRAPH)
+            mesh = self._ask("chunk", level=self._level_name, chunk=name)
+            self._chunks[name] = navmesh.Terrain.from_arrays(mesh["vertices"], mesh["faces"])
+        loaded_now = navmesh.join_chunks(self._chunks)
+        self.level = _level({"vertices": loaded_now.vertices, "faces": loaded_now.faces}, _NO_GRAPH)
 
     # --- messages
     def _ask(self, kind: str, **fields: Any) -> dict[str, Any]:

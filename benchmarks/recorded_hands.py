@@ -23,7 +23,7 @@ from locomotion.recorded_people import layout as at
 from locomotion.recorded_people.hand_holds import HandHold
 from locomotion.recorded_people.people import RecordedPeople
 from locomotion.skills.course import make_course
-from runtime.bodies.recorded import person_figure
+from runtime.bodies.joints import person_figure
 
 __all__ = ["HEIGHTS", "misses"]
 

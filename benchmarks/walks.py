@@ -27,6 +27,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 import navmesh
 from benchmarks.workers import add_place, place_of
@@ -44,15 +45,23 @@ Scene = Callable[["Stage", np.random.Generator], None]
 
 @dataclass
 class Stage:
-    """A world, and what has been seen of it: ``falls``; ``arrived``: orders carried out; ``stuck``: how often
-    somebody ended stuck or lost; ``walked``: [s] on foot, of which ``learned`` as learned."""
+    """A world with people of a ``size``, and what has been seen of it: ``falls``; ``arrived``: orders carried
+    out; ``stuck``: how often somebody ended stuck or lost; ``walked``: [s] on foot, of which ``learned`` as
+    learned."""
 
     world: World
+    size: float = 1.0
     falls: int = 0
     arrived: int = 0
     stuck: int = 0
     walked: float = 0.0
     learned: float = 0.0
+
+    def spawn(self, place: ArrayLike, facing: float) -> Agent:
+        """One more person."""
+        agent = self.world.spawn("human", place, facing)
+        agent.set_style(size=self.size)
+        return agent
 
     def go_on(self, seconds: float, until: Callable[[], bool] = lambda: False) -> None:
         """Let time pass."""
@@ -143,7 +152,7 @@ def _somewhere(stage: Stage, rng: np.random.Generator, room: float = 0.5) -> np.
 def _spawn(stage: Stage, rng: np.random.Generator) -> Agent:
     while True:
         try:
-            return stage.world.spawn("human", _somewhere(stage, rng), float(rng.uniform(-math.pi, math.pi)))
+            return stage.spawn(_somewhere(stage, rng), float(rng.uniform(-math.pi, math.pi)))
         except RuntimeInputError:  # somebody stands there
             pass
 
@@ -180,7 +189,7 @@ def up_and_down(stage: Stage, rng: np.random.Generator) -> None:
     low, high = stage.world.graph.terrain.bounds
     aside = rng.uniform(-_NEAR, _NEAR, 2)
     ends = [(low[0] + 2.0, aside[0], low[2]), (high[0] - 2.0, aside[1], high[2])]
-    agent = stage.world.spawn("human", ends[0], float(rng.uniform(-1.0, 1.0)))
+    agent = stage.spawn(ends[0], float(rng.uniform(-1.0, 1.0)))
     for end in (ends[1], ends[0]):
         stage.go(agent, end, float(rng.uniform(0.8, 1.8)))
 
@@ -208,7 +217,7 @@ def pushed(stage: Stage, rng: np.random.Generator) -> None:
 
 def run(stage: Stage, rng: np.random.Generator) -> None:
     """To the other end and back."""
-    agent = stage.world.spawn("human", (2.0, float(rng.uniform(-3.0, 3.0)), 0.0), float(rng.uniform(-1, 1)))
+    agent = stage.spawn((2.0, float(rng.uniform(-3.0, 3.0)), 0.0), float(rng.uniform(-1, 1)))
     for k in range(2):
         if agent.status == "fallen":
             return

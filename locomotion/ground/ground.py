@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from locomotion.errors import LocomotionError
-from locomotion.ground.collider.build import build_triangle_arrays
+from locomotion.ground.collider.build import build_triangle_arrays, scaled_arrays
 from locomotion.ground.collider.install import MARK, occupy, release
 from locomotion.ground.collider.layout import (
     CORNER,
@@ -82,11 +82,27 @@ class Ground:
         self._arrays = build_triangle_arrays(vertices - self._origin, faces)
         if not len(self._arrays.rows):
             raise LocomotionError("the ground has only degenerate triangles; give at least one with an area")
-        self.digest = hashlib.sha256(vertices.tobytes() + faces.tobytes()).hexdigest()[:16]
+        self._visible = True
+        self._occupy()
+
+    def _occupy(self) -> None:
+        self.digest = hashlib.sha256(self.vertices.tobytes() + self.faces.tobytes()).hexdigest()[:16]
         self._number = int(self.digest[:12], 16) | 1  # 48 bits: exact as a float64, never zero
         self._slot, kept = occupy(self._arrays, self._origin, self._number)
         self._kept = kept
         weakref.finalize(self, _release, self._slot, kept)
+
+    def scaled(self, factor: float) -> Ground:
+        """The same surface ``factor`` > 0 times as large, made of what is worked out for this one. Pictures
+        of MuJoCo do not show it."""
+        other = Ground.__new__(Ground)
+        vars(other).update(vars(self))
+        other.vertices, other._arrays = factor * self.vertices, scaled_arrays(self._arrays, factor)
+        other.low, other.high, other._origin = factor * self.low, factor * self.high, factor * self._origin
+        other._rules = self._rules[0], factor * self._rules[1]
+        other._visible = False
+        other._occupy()
+        return other
 
     @classmethod
     def from_arrays(
@@ -159,7 +175,7 @@ class Ground:
         )  # fmt: skip
         if self.friction > FRICTION:
             geom.solimp, geom.priority = _HARD if self.steep else _usually_hard(self.friction), 1
-        if visual:
+        if visual and self._visible:
             self._add_visual(spec)
         return geom
 

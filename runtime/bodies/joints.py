@@ -1,4 +1,4 @@
-"""The joints of a person, for those who turn a skeleton by angles."""
+"""What a person of any size looks like, and its joints, for those who turn a skeleton by angles."""
 
 from functools import lru_cache
 
@@ -6,9 +6,15 @@ import numpy as np
 
 from locomotion.body.models import figure
 from locomotion.body.person import JOINT_NAMES
-from runtime.bodies.figure import Joints
+from runtime.bodies.figure import Figure, Joints
 
-__all__ = ["person_joints"]
+__all__ = ["person_figure", "person_joints"]
+
+
+@lru_cache(maxsize=256)
+def person_figure(size: float = 1.0) -> Figure:
+    """What persons of a ``size`` look like, at every level of detail."""
+    return Figure.from_model(figure()).scaled(size)
 
 
 @lru_cache(maxsize=256)

@@ -14,15 +14,14 @@ from typing import NamedTuple
 import numpy as np
 
 import navmesh
-from locomotion import Human
 from locomotion.errors import LocomotionError
 from locomotion.gaits.limits import PERSON_RULES
+from locomotion.human.sized_human import SizedHuman
 from locomotion.human.state import CLEARING
 from locomotion.paths.departures import can_begin, leads
 from locomotion.paths.run_up_room import cramped_links
 from locomotion.paths.table import TrackingLimits
 from locomotion.saved_arrays import check_array, check_number
-from locomotion.skills.interface import skill_ranges
 from runtime.bodies.obstacle_odds import link_prices
 from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
@@ -201,10 +200,10 @@ class OrdersState(NamedTuple):
 
 
 class PersonOrders:
-    """The orders of ``human``. ``planning``: of the present one, None without one."""
+    """The orders of the person ``body``. ``planning``: of the present one, None without one."""
 
-    def __init__(self, level: Level, human: Human) -> None:
-        self._level, self._human = level, human
+    def __init__(self, level: Level, body: SizedHuman) -> None:
+        self._level, self._body = level, body
         self.planning: Planning | None = None
         self._since, self._later, self._again = 0, None, False
 
@@ -218,18 +217,18 @@ class PersonOrders:
         self, goals: np.ndarray, speed: float, skilled: bool = True, closed: Sequence[str] = ()
     ) -> Order:
         """The order to go through ``goals`` at ``speed`` [m/s], given now."""
-        human = self._human
+        body, human = self._body, self._body.human
         return Order(
-            goals, speed, skilled, tuple(closed), human.position, human.velocity[:2].copy(),
+            goals, speed, skilled, tuple(closed), body.position, body.velocity[:2].copy(),
             human.on_feet.walks, human.status in CLEARING.values(),
             human.by_odds,
         )  # fmt: skip
 
     def planned(self, order: Order) -> Planning:
         """The planning of ``order``, not begun. Raises `NoWay`."""
-        human, graph = self._human, self._level.graph
-        prices = link_prices(human, graph) if order.by_odds else None
-        return Planning(graph, order, skill_ranges(human.clearing), human.on_feet.limits, prices)
+        body, graph = self._body, self._level.graph
+        prices = link_prices(body, graph) if order.by_odds else None
+        return Planning(graph, order, body.ranges, body.limits, prices)
 
     def give(self, order: Order) -> Plan:
         """Plan ``order`` from now on, instead of what was told before; return the plan without smoothing. One
@@ -237,8 +236,8 @@ class PersonOrders:
         `NoWay`, and changes nothing."""
         planning = self.planned(order)
         if self.planning is None:
-            self._since = self._human.ticks
-        if self._human.ticks - self._since >= _PATIENCE:
+            self._since = self._body.human.ticks
+        if self._body.human.ticks - self._since >= _PATIENCE:
             self._later = order
         else:
             self.planning, self._later, self._again = planning, None, False
@@ -262,7 +261,7 @@ class PersonOrders:
         later = self._later
         self.drop()
         if later is not None:
-            self.planning, self._since = self._anew(later), self._human.ticks
+            self.planning, self._since = self._anew(later), self._body.human.ticks
         return planning
 
     def drop(self) -> None:
@@ -280,8 +279,9 @@ class PersonOrders:
 
     def _strayed(self, order: Order) -> bool:
         """Whether it is too far from where it was told, or has taken off since."""
-        here, takes_off = self._human.position, self._human.status in CLEARING.values() and not order.clears
-        return takes_off or math.hypot(*(here - order.place)[:2]) > _ASTRAY
+        body = self._body
+        takes_off = body.human.status in CLEARING.values() and not order.clears
+        return takes_off or math.hypot(*(body.position - order.place)[:2]) > _ASTRAY
 
     def _anew(self, order: Order) -> Planning:
         return self.planned(self.told(order.goals, order.speed, order.skilled, order.closed))

@@ -61,6 +61,10 @@ class Driver(ABC):
     def time(self) -> float:
         """[s] since it was made."""
 
+    def in_world(self, event: Event) -> Event:
+        """One of its `events`, as it is in the world: a body may have a measure of its own."""
+        return event
+
     @property
     @abstractmethod
     def status(self) -> str:

@@ -1,13 +1,11 @@
 """Persons in a world who play recorded motion: they move as walkers do, and have postures."""
 
 from collections.abc import Mapping
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from locomotion import PERSON_RULES, Ground, LocomotionError
-from locomotion.body.models import figure
 from locomotion.body.traits import SIZE, TRAITS, by_hand
 from locomotion.crowd.saved_state_check import check_walker
 from locomotion.human.composition import checked_bravery
@@ -20,9 +18,9 @@ from locomotion.recorded_people.person import RecordedPerson
 from locomotion.recorded_people.person_state import PersonState
 from locomotion.recorded_people.saved_state_check import check_recorded
 from navmesh.routes.route import Route
-from runtime.bodies.figure import Figure, Joints
+from runtime.bodies.figure import Joints
 from runtime.bodies.humans import HumanDriver, chance_at
-from runtime.bodies.joints import person_joints
+from runtime.bodies.joints import person_figure, person_joints
 from runtime.bodies.populations import Populations
 from runtime.bodies.protocol import Driver, Population, recall, saved_parts
 from runtime.bodies.walkers import WalkerDriver
@@ -30,17 +28,7 @@ from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
 from runtime.planning.planning import Plan
 
-__all__ = ["Recorded", "RecordedDriver", "is_recorded", "person_figure"]
-
-
-def person_figure(size: float = 1.0) -> Figure:
-    """What a person of a ``size`` looks like, at any level of detail."""
-    return _figure_of(size)
-
-
-@lru_cache(maxsize=256)
-def _figure_of(size: float) -> Figure:
-    return Figure.from_model(figure()).scaled(size)
+__all__ = ["Recorded", "RecordedDriver", "is_recorded"]
 
 
 class Recorded(Population):
@@ -64,9 +52,8 @@ class Recorded(Population):
 
     def take_over(self, driver: HumanDriver, level: str) -> "RecordedDriver":
         """Let recorded motion go on from where a simulated person is, at a ``level`` of detail."""
-        human, index = driver.human, level_number(level)
-        place, velocity = human.position, human.velocity[:2]
-        person = self.people.add(place, human.yaw, index, chance_at(place, self._seed))
+        place, velocity = driver.position, driver.body.velocity[:2]
+        person = self.people.add(place, driver.facing, level_number(level), chance_at(place, self._seed))
         person.set_traits(by_hand(person.row[at.TRAITS], **driver.style))
         pose, pose_rates = driver.drawn()
         person.go_on_from(pose, pose_rates, place, velocity)

@@ -12,6 +12,9 @@ _grounds: WeakKeyDictionary[navmesh.NodeGraph, Ground] = WeakKeyDictionary()
 """Made once for all worlds on a graph, with zones or without: it never changes."""
 
 
+_sized: WeakKeyDictionary[Ground, dict[float, Ground]] = WeakKeyDictionary()
+
+
 @dataclass
 class Level:
     """``graph``: where one can go. ``ground``: the same surface, to stand on."""
@@ -30,3 +33,13 @@ class Level:
                 terrain.vertices, terrain.faces, max_slope=rules.max_slope, max_step=rules.max_step
             )
         return cls(graph, ground)
+
+    def ground_for(self, size: float) -> Ground:
+        """The ground in the measure of a person of another ``size`` (`locomotion.human.measure`): made with
+        the first that asks for it, for all worlds."""
+        if size == 1.0:
+            return self.ground
+        sized = _sized.setdefault(self.ground, {})
+        if size not in sized:
+            sized[size] = self.ground.scaled(1.0 / size)
+        return sized[size]

@@ -32,7 +32,7 @@ from runtime.planning.beyond import Beyond, loaded_part
 from runtime.planning.planning import NotLoaded, NoWay, Plan
 from runtime.traffic.waiting_and_deadlock import Headway
 from runtime.world.agent_services import Host
-from runtime.world.agent_state import AgentState, Errand, check_size, checked_style
+from runtime.world.agent_state import AgentState, Errand
 from runtime.world.arguments import checked_number, checked_points
 from runtime.world.level_of_detail import AUTO, PHYSICS, checked_detail
 from runtime.world.news import news_of
@@ -245,7 +245,6 @@ class Agent:
     @detail.setter
     def detail(self, detail: str) -> None:
         asked = checked_detail(detail, self._host.levels(self.body), self.body)
-        check_size(self.name, self._style, asked)
         self._detail, self.waits_for_level = asked, True
         if detail not in (AUTO, self.level):
             self.change_level(detail)
@@ -289,8 +288,6 @@ class Agent:
         a value out of its range, another size than 1 for a person whose `detail` is "physics" or "auto", and
         any other body.
         """
-        if self.has_levels:
-            check_size(self.name, checked_style(traits), self._detail)
         self._driver.set_style(traits)
         self._style |= traits
 
@@ -593,7 +590,7 @@ class Agent:
         follower, left = self._driver.follower, self._driver.sets_out()
         if follower is not None and left is not None:
             self._host.traffic.look_out(follower, *left)
-        for event in self.news:
+        for event in map(self._driver.in_world, self.news):
             if isinstance(event, bodily.Arrived) and self._errand.beyond is not None:
                 self._come_to_the_end(self._errand.beyond)
                 continue

@@ -12,9 +12,8 @@ from locomotion.body.traits import by_hand
 from runtime.errors import RuntimeInputError
 from runtime.planning.beyond import Beyond
 from runtime.traffic.waiting_and_deadlock import Headway
-from runtime.world.level_of_detail import AUTO, PHYSICS
 
-__all__ = ["AgentState", "Errand", "check_size", "checked_style"]
+__all__ = ["AgentState", "Errand", "checked_style"]
 
 
 @dataclass(frozen=True)
@@ -76,23 +75,12 @@ class AgentState:
             checked_style(self.style)
         except RuntimeInputError as error:
             raise RuntimeInputError(f"the style of {name!r}: {error}") from None
-        check_size(name, self.style, self.detail)
 
 
 def checked_style(traits: Mapping[str, float]) -> Mapping[str, float]:
-    """``traits``. Raises `RuntimeInputError` as `Agent.set_style`, but for sizes."""
+    """``traits``. Raises `RuntimeInputError` as `Agent.set_style`."""
     try:
         by_hand(None, **traits)
     except LocomotionError as error:
         raise RuntimeInputError(str(error)) from None
     return traits
-
-
-def check_size(name: str, style: Mapping[str, float], detail: str) -> None:
-    """Raises `RuntimeInputError` for a size that would jump when physics takes over."""
-    size = style.get("size", 1.0)
-    if size != 1.0 and detail in (AUTO, PHYSICS):
-        raise RuntimeInputError(
-            f"{name} with the detail {detail!r} cannot have the size {size:g}; simulated people have 1: "
-            'give it the detail "full", "medium" or "low", or size=1'
-        )

@@ -7,7 +7,7 @@ part of the surface are left out, so nothing can catch on a seam between triangl
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,13 +36,14 @@ from locomotion.ground.collider.layout import (
     ROW,
     SIDE,
     SIDE_ROW,
+    SIDES_END,
     SOUTH,
     VERTEX,
     WEST,
 )
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["DEPTH_CAP", "TriangleArrays", "build_triangle_arrays", "share_corner"]
+__all__ = ["DEPTH_CAP", "TriangleArrays", "build_triangle_arrays", "scaled_arrays", "share_corner"]
 
 #: [m] how far behind a face the centre of a body may be and still be pushed out through it.
 DEPTH_CAP = 0.10
@@ -125,6 +126,22 @@ def build_triangle_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64
     return TriangleArrays(
         rows, flags, vertex_start, vertex_edges, cell_start, cell_triangles, cell_range, grid, shape
     )
+
+
+_LENGTHS = [
+    OFFSET, *range(SIDE + SIDE_ROW - 1, SIDES_END, SIDE_ROW), *range(CORNER, DEPTH_LIMIT + 1),
+    *range(LOW_X, HIGH_Z + 1), *range(EDGE_DEPTH_LIMIT, ROW),
+]  # fmt: skip
+"""Columns of ``rows`` that are in metres."""
+
+
+def scaled_arrays(arrays: TriangleArrays, factor: float) -> TriangleArrays:
+    """The triangles ``factor`` > 0 times as large; what does not depend on that is shared."""
+    rows, grid = arrays.rows.copy(), arrays.grid.copy()
+    rows[:, _LENGTHS] *= factor
+    grid[[WEST, SOUTH]] *= factor
+    grid[PER_METRE] /= factor
+    return replace(arrays, rows=rows, cell_range=factor * arrays.cell_range, grid=grid)
 
 
 def _edges(corners: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

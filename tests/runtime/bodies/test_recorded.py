@@ -8,7 +8,8 @@ import pytest
 from locomotion.recorded_people import layout as at
 from navmesh import NodeGraph, Terrain
 from runtime import Arrived, PostureReached, RuntimeInputError, World, WorldState
-from runtime.bodies.recorded import RecordedDriver, person_figure
+from runtime.bodies.joints import person_figure
+from runtime.bodies.recorded import RecordedDriver
 from runtime.evaluation.courses import make_course
 from runtime.traces.recording import Recorder
 

@@ -30,7 +30,7 @@ def link_prices(body: SizedHuman, graph: navmesh.NodeGraph) -> np.ndarray:
 
     def make() -> np.ndarray:
         links, prices = graph.links, np.zeros(len(graph.links))
-        room = straight_before(graph, PERSON_RULES["radius"], MOST_ROOM)
+        room = straight_before(graph, PERSON_RULES["radius"], size * MOST_ROOM)
         for skill, precondition in known:
             if precondition is None:
                 continue
@@ -38,8 +38,8 @@ def link_prices(body: SizedHuman, graph: navmesh.NodeGraph) -> np.ndarray:
             those = links.affordance == skill.affordance
             those &= (links.height >= size * low) & (links.height <= size * high)
             depth = graph.obstacles.depth[links.obstacle[those]] * kind_of(skill.affordance).has_depth
-            own = links.height[those] / size, depth / size, room[those] / size
-            rows = np.column_stack([*own[:2], np.full(len(depth), grip), own[2]])
+            own = np.column_stack([links.height[those], depth, room[those]]) / size
+            rows = np.insert(own, 2, grip, axis=1)
             odds = np.maximum(precondition.odds_before(rows), _LEAST)
             prices[those] = _FAILING * (1.0 - odds) / odds
         return prices

@@ -282,11 +282,12 @@ class Agent:
         are not named stay as they are. A simulated person begins with the usual ones, one that plays recorded
         motion with traits by chance, and both with the size 1, which is 1.76 m.
 
-        While it is simulated they show on its next level ways without obstacles, but for size and phase, and
-        within `locomotion.gaits.policy.style.WORN`: beyond that it would fall. Recordings and clients take
-        the size that one has when they begin or it appears. Raises `RuntimeInputError` for an unknown trait,
-        a value out of its range, another size than 1 for a person whose `detail` is "physics" or "auto", and
-        any other body.
+        While it is simulated they show on its next level ways without obstacles, but for the phase, and
+        within `locomotion.gaits.policy.style.WORN`: beyond that it would fall. Another size shows at once,
+        but while it is simulated it can change only where it stands, in steps of 1 %; the first of a size
+        takes load time. Recordings and clients take the size that one has when they begin or it appears.
+        Raises `RuntimeInputError` for an unknown trait, a value out of its range, a size that cannot change
+        now, and any other body.
         """
         self._driver.set_style(traits)
         self._style |= traits

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from locomotion.body.person import build_person
 from locomotion.errors import LocomotionError
-from locomotion.ground.ground import Ground
+from locomotion.ground.ground import Ground, extruded
 from tests.locomotion.ground.collider.shapes import SPHERE, floor, scene
 
 
@@ -108,3 +108,17 @@ def test_ground_holds_feet_on_its_floors():
         Ground.from_arrays(*square, max_slope=2.0)
     with pytest.raises(LocomotionError, match="max_step is nan m"):
         Ground.from_arrays(*square, max_step=float("nan"))
+
+
+def test_a_scaled_ground_is_the_same_surface():
+    vertices, faces = extruded([(0.0, 0.0), (2.0, 0.4), (3.0, 0.4), (3.2, 1.1), (6.0, 1.0)], 1.5)
+    ground = Ground.from_arrays(vertices, faces)
+    scaled, made = ground.scaled(1.25), Ground.from_arrays(1.25 * vertices, faces)
+    points = np.column_stack([np.linspace(0.1, 5.9, 40), np.linspace(-1.4, 1.4, 40), np.full(40, 2.0)])
+    for ours, theirs in zip(
+        scaled.surface_below(1.25 * points), made.surface_below(1.25 * points), strict=True
+    ):
+        np.testing.assert_allclose(ours, theirs, atol=1e-12)
+    np.testing.assert_allclose(scaled.surface_below(1.25 * points)[0], 1.25 * ground.surface_below(points)[0])
+    assert scaled.friction == ground.friction and scaled.digest != ground.digest
+    np.testing.assert_allclose(scaled.arrays.rows[:, :25], made.arrays.rows[:, :25], atol=1e-12)

@@ -7,6 +7,7 @@ import trimesh
 import navmesh
 from locomotion import ObstacleAhead
 from locomotion.human.composition import Composition
+from locomotion.human.sized_human import SizedHuman
 from locomotion.paths.run_up_room import straight_before
 from locomotion.preconditions.precondition import Precondition
 from locomotion.skills.course import make_course
@@ -29,7 +30,7 @@ def test_odds_are_asked_by_number_or_tag(graph):
     number = int(np.flatnonzero(graph.obstacles.affordance == "jump")[0])
     odds = ada.odds(number)
     assert 0.4 < odds < 1.0 and odds == ada.odds(str(graph.obstacles.tag[number]))
-    assert odds == odds_at(ada.human, graph, number, "")
+    assert odds == odds_at(SizedHuman(ada.human, 1.0), graph, number, "")
     with pytest.raises(RuntimeInputError, match="obstacle 'moon': the level has"):
         ada.odds("moon")
     with pytest.raises(RuntimeInputError, match="a whole number below"):
@@ -98,15 +99,17 @@ def test_who_goes_by_odds_goes_round_what_it_would_fail_at(wall, monkeypatch):
         assert over(World(wall, rehearsals=0)) == over(World(wall), bravery=0.9) == ["vault"]
 
 
-def test_a_link_is_as_much_dearer_as_tries_fail_before_one_holds(wall):
+@pytest.mark.parametrize("size", [1.0, 0.9])
+def test_a_link_is_as_much_dearer_as_tries_fail_before_one_holds(wall, size):
     wall.cache.clear()
     human = World(wall, rehearsals=0).spawn("human", (2.0, 0.0, 0.0)).human
-    prices, links = link_prices(human, wall), wall.links
+    body = SizedHuman(human, size)
+    prices, links = link_prices(body, wall), wall.links
     for k in np.flatnonzero(links.affordance == "vault")[::7]:
         ahead = ObstacleAhead(
             9.0, "vault", links.height[k], links.edge[k], wall.obstacles.normal[links.obstacle[k]], 0.3
         )
-        odds = human.composition.odds(ahead, straight_before(wall, 0.3, 16.0)[k])
+        odds = human.composition.odds(body.own(ahead), straight_before(wall, 0.3, 16.0)[k] / size)
         assert prices[k] == pytest.approx(30.0 * (1.0 - odds) / odds, rel=1e-3) and prices[k] > 0.0
     human.composition.preconditions = {}
-    assert not link_prices(human, wall).any()
+    assert not link_prices(body, wall).any()

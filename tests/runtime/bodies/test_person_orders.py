@@ -125,7 +125,8 @@ def test_a_run_goes_on_bit_for_bit_from_a_state_in_mid_planning(world, tmp_path)
 def test_a_damaged_order_is_refused(world):
     agent = world.spawn("human", (5.0, 5.0, 0.0))
     agent.go_to((35.0, 5.0, 0.0))
-    *parts, orders = agent.driver.save()
+    state = agent.driver.save()
+    orders = state.orders
     for wrong in (
         orders._replace(ticks=-1),
         orders._replace(ticks=10**9),
@@ -135,7 +136,7 @@ def test_a_damaged_order_is_refused(world):
         "orders",
     ):
         with pytest.raises((RuntimeInputError, LocomotionError)):
-            agent.driver.restore((*parts, wrong))
+            agent.driver.restore(state._replace(orders=wrong))
 
 
 def test_a_way_that_is_blocked_meanwhile_is_planned_anew():

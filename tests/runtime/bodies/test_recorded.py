@@ -1,7 +1,5 @@
 """Recorded persons in worlds: they go, take postures, are seen, saved and removed."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -19,7 +17,7 @@ def test_a_recorded_person_goes_as_a_walker_does_and_looks_like_a_person(graph):
     ada = world.spawn("human", (2.0, 3.0, 0.0), detail="medium", name="ada")
     world.spawn("walker", (5.5, 3.1, 0.0))
     assert ada.level == ada.detail == "medium" and isinstance(ada.driver, RecordedDriver)
-    assert ada.figure is person_figure() and ada.pose.transforms.shape == (20, 7)
+    assert ada.figure is person_figure(1.0) and ada.pose.transforms.shape == (20, 7)
     simulated = world.spawn("human", (2.0, 5.0, 0.0))
     assert ada.figure.bodies == simulated.figure.bodies
     apart = ada.pose.transforms[:, :3] - simulated.pose.transforms[:, :3] + [0.0, 2.0, 0.0]
@@ -287,24 +285,3 @@ def test_traits_by_chance_of_who_was_simulated_first_are_the_same_on_every_visit
     ada.detail = "low"
     world.step(1.0)
     assert ada.level == "low" and ada.driver.traits == seen
-
-
-@pytest.mark.parametrize("detail", ["physics", "auto"])
-def test_nobody_who_may_be_simulated_has_another_size(graph, detail):
-    world = World(graph)
-    ada = world.spawn("human", (2.0, 3.0, 0.0), detail=detail)
-    bob = world.spawn("human", (4.0, 3.0, 0.0), detail="low")
-    told = world.state_hash()
-    with pytest.raises(RuntimeInputError, match=f"human1 with .* '{detail}' cannot have the size 0.9"):
-        ada.set_style(size=0.9, arms=1.5)
-    ada.set_style(size=1.0)
-    bob.set_style(size=0.9)
-    assert world.state_hash() != told
-    with pytest.raises(RuntimeInputError, match=f"human2 with .* '{detail}' cannot have the size 0.9"):
-        bob.detail = detail
-    assert (bob.detail, bob.level) == ("low", "low")
-    state = world.agents["human2"].save(0)
-    with pytest.raises(RuntimeInputError, match="cannot have the size"):
-        replace(state, detail=detail).check("human2")
-    bob.set_style(size=1.0)
-    bob.detail = detail

@@ -121,7 +121,6 @@ def test_takes_postures_and_holds_things(graph, tmp_path):
         (REX + "style: {arms: 1.4}, goto: east}", "style", "only people have"),
         (BOB + "style: {arm: 1.4}, goto: east}", "style", "unknown key 'arm'|arm"),
         (BOB + "style: {lean: 1.4}, goto: east}", "style", "0.3"),
-        (BOB.replace("low", "auto") + "style: {size: 0.9}, goto: east}", "style", "cannot have the size 0.9"),
     ],
 )
 def test_postures_that_there_are_not_are_refused(graph, tmp_path, agent, at, says):

@@ -116,13 +116,15 @@ def test_a_style_is_worn_and_another_size_is_told(graph):
         await client.ask("style", world=world, agent="ada", traits={"size": 0.9})
         traits = server._worlds.hosted[world].world.agents["ada"].driver.traits
         assert [traits[name] for name in ("arms", "lean", "size")] == [1.5, 0.1, 0.9]
-        ada, _, smaller = [each["agent"] for each in client.told if each["type"] == "agent"]
-        assert smaller["name"] == "ada"
+        await client.ask("style", world=world, agent="bob", traits={"size": 1.05})
+        ada, bob, smaller, taller = [each["agent"] for each in client.told if each["type"] == "agent"]
+        assert (smaller["name"], taller["name"]) == ("ada", "bob")
         np.testing.assert_allclose(smaller["offsets"], 0.9 * np.array(ada["offsets"]), atol=2e-5)
+        np.testing.assert_allclose(taller["offsets"], 1.05 * np.array(bob["offsets"]), atol=2e-5)
         for agent, wrong, says in (
             ("ada", {"self": 1.0}, "trait 'self': valid: phase"), ("ada", {"lean": 2.0}, "from -0.2 to 0.3"),
             ("ada", {"lean": "much"}, "valid number"), ("ada", {}, "at least 1"),
-            ("bob", {"size": 0.9}, "cannot have the size"),
+            ("bob", {"size": 1.3}, "from 0.8 to 1.2"),
         ):  # fmt: skip
             with pytest.raises(ValueError, match=says):
                 await client.ask("style", world=world, agent=agent, traits=wrong)

@@ -106,9 +106,11 @@ def test_a_link_is_as_much_dearer_as_tries_fail_before_one_holds(wall, size):
     body = SizedHuman(human, size)
     prices, links = link_prices(body, wall), wall.links
     for k in np.flatnonzero(links.affordance == "vault")[::7]:
+        number = links.obstacle[k]
         ahead = ObstacleAhead(
-            9.0, "vault", links.height[k], links.edge[k], wall.obstacles.normal[links.obstacle[k]], 0.3
-        )
+            9.0, "vault", links.height[k], links.edge[k],
+            wall.obstacles.normal[number], wall.obstacles.depth[number],
+        )  # fmt: skip
         odds = human.composition.odds(body.own(ahead), straight_before(wall, 0.3, 16.0)[k] / size)
         assert prices[k] == pytest.approx(30.0 * (1.0 - odds) / odds, rel=1e-3) and prices[k] > 0.0
     human.composition.preconditions = {}

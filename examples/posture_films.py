@@ -92,9 +92,9 @@ def switches(artist: Artist) -> _Pictures:
 
 
 def sizes(artist: Artist) -> _Pictures:
-    """People of 1.55 to 1.90 m who walk side by side, at each level."""
+    """People of 1.55 to 1.90 m who walk side by side, simulated and at each level of recorded motion."""
     row = []
-    for level in LEVELS:
+    for level in ("physics", *LEVELS):
         world = runtime.World(artist.graph, seed=3)
         for number, size in enumerate(np.linspace(0.88, 1.08, 5)):
             agent = world.spawn("human", (0.0, 5.0 + 0.8 * number, 0.0), detail=level)

@@ -32,3 +32,11 @@ def test_each_world_has_a_level_of_its_own_which_changes():
     mine, yours = Level.of(graph), Level.of(graph)
     mine.graph, mine.ground = other, Level.of(other).ground
     assert yours.graph is graph and not np.array_equal(yours.graph.positions, mine.graph.positions)
+
+
+def test_people_of_one_size_share_a_ground_in_their_measure(graph):
+    level = Level.of(graph)
+    assert level.ground_for(1.0) is level.ground
+    small = level.ground_for(0.8)
+    assert small is Level.of(graph).ground_for(0.8) and small is not level.ground_for(0.9)
+    np.testing.assert_allclose(small.high, level.ground.high / 0.8)

@@ -35,7 +35,7 @@ from locomotion.recorded_people.fading import difference
 from locomotion.skills.course import make_course
 from navmesh import NodeGraph, Terrain
 from runtime import Agent, Fell, SkillFinished, World
-from runtime.bodies.humans import HumanDriver
+from runtime.bodies.human_driver import HumanDriver
 from runtime.planning.rules import person_walk_rules
 from runtime.world.level_of_detail import LEVELS, PHYSICS
 from surefoot.progress import Progress
@@ -55,7 +55,7 @@ _PLAIN = (-5.0, -40.0, 120.0, 40.0)
 def pose_of(agent: Agent) -> np.ndarray:
     """(46,) as it is drawn."""
     driver = agent.driver
-    return driver.drawn()[0] if isinstance(driver, HumanDriver) else driver.person.qpos  # type: ignore[attr-defined]
+    return driver.look.pose() if isinstance(driver, HumanDriver) else driver.person.qpos  # type: ignore[attr-defined]
 
 
 def steps(poses: list[np.ndarray]) -> tuple[float, float]:

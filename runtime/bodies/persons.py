@@ -8,7 +8,8 @@ import numpy as np
 from locomotion.human.motion_start import moments
 from locomotion.recorded.skeletons import LEVELS
 from runtime.bodies.cast import Cast
-from runtime.bodies.humans import HumanDriver, People
+from runtime.bodies.human_driver import HumanDriver
+from runtime.bodies.people import People
 from runtime.bodies.protocol import Driver, Population
 from runtime.bodies.recorded import Recorded, RecordedDriver, is_recorded
 

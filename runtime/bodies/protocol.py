@@ -1,7 +1,7 @@
 """What a world and its agents ask of bodies, whatever kind they are.
 
 A `Population` makes and advances all bodies of a kind in a world: people one by one
-(`runtime.bodies.humans`), animals in one call (`runtime.bodies.quadrupeds`), walkers in one crowd
+(`runtime.bodies.people`), animals in one call (`runtime.bodies.quadrupeds`), walkers in one crowd
 (`runtime.bodies.walkers`). A `Driver` is one body of it. `runtime.bodies.registry` lists the kinds.
 """
 

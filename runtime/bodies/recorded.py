@@ -19,8 +19,9 @@ from locomotion.recorded_people.person_state import PersonState
 from locomotion.recorded_people.saved_state_check import check_recorded
 from navmesh.routes.route import Route
 from runtime.bodies.figure import Joints
-from runtime.bodies.humans import HumanDriver, chance_at
+from runtime.bodies.human_driver import HumanDriver
 from runtime.bodies.joints import person_figure, person_joints
+from runtime.bodies.people import chance_at
 from runtime.bodies.populations import Populations
 from runtime.bodies.protocol import Driver, Population, recall, saved_parts
 from runtime.bodies.walkers import WalkerDriver
@@ -55,7 +56,7 @@ class Recorded(Population):
         place, velocity = driver.position, driver.body.velocity[:2]
         person = self.people.add(place, driver.facing, level_number(level), chance_at(place, self._seed))
         person.set_traits(by_hand(person.row[at.TRAITS], **driver.style))
-        pose, pose_rates = driver.drawn()
+        pose, pose_rates = driver.look.drawn()
         person.go_on_from(pose, pose_rates, place, velocity)
         return RecordedDriver(self, person)
 

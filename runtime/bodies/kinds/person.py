@@ -9,8 +9,8 @@ from locomotion import PERSON_RULES, Human
 from locomotion.recorded.skeletons import LEVELS
 from locomotion.skills.interface import skill_ranges
 from runtime.bodies.figure import Figure
-from runtime.bodies.humans import People
 from runtime.bodies.kinds.kind import BodyKind, Surroundings
+from runtime.bodies.people import People
 from runtime.bodies.persons import Persons
 from runtime.bodies.protocol import Driver, Population
 from runtime.bodies.recorded import Recorded

@@ -1,266 +1,42 @@
-"""Simulated persons in a world, each with a simulation of its own."""
+"""One simulated person in a world."""
 
 import hashlib
-import math
 from collections import deque
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from locomotion import MOVING, PERSON_RULES, Ground, Human, HumanState, LocomotionError, load_run_skill
+from locomotion import MOVING, PERSON_RULES, Ground, Human, HumanState, LocomotionError
 from locomotion.avoidance.yielding import SPACING, Course
 from locomotion.body.person import CONTROL_DT
 from locomotion.body.traits import SIZE, TRAITS, by_hand
 from locomotion.body_events import Arrived, Event, GotStuck, MissedGoal, PostureReached, StrayedFromPath
-from locomotion.gaits.brake import load_brake_skill
-from locomotion.gaits.policy.skill import PolicySkill, load_policy
-from locomotion.gaits.residual.skill import load_brake_residual, load_landing_residual
-from locomotion.gaits.run.skill import RunSkill
-from locomotion.gaits.slow_down import load_slow_down_skill
-from locomotion.gaits.speed_up import load_speed_up_skill
-from locomotion.gaits.walk.skill import WalkSkill, load_walk_skill
-from locomotion.human.human import BetweenGaits
-from locomotion.human.motion_start import moment_like, set_in_motion
 from locomotion.human.saved_state_check import check_person
-from locomotion.human.sized_human import Glimpse, SizedHuman, movements_of
-from locomotion.postures.step_order import AT_REST
+from locomotion.human.sized_human import SizedHuman
 from locomotion.preconditions.precondition import load_preconditions
-from locomotion.recorded_people import layout as at
-from locomotion.recorded_people.fading import fade_from, faded, rates
 from locomotion.recorded_people.nodes import can_hold, checked_node
 from locomotion.recorded_people.people import person_postures
-from locomotion.recorded_people.person import RecordedPerson
-from locomotion.rehearsal.choices import REHEARSALS
-from locomotion.rehearsal.sharing import REHEARSAL_TICKS, allot
-from locomotion.saved_arrays import check_array, check_number
-from locomotion.skills.interface import ClearingSkill
-from locomotion.skills.library import learned_skills
+from locomotion.saved_arrays import check_number
 from locomotion.skills.registry import CLEARING
 from runtime.bodies.figure import Joints
+from runtime.bodies.human_look import Fading, HumanLook
+from runtime.bodies.human_pool import HumanPool
 from runtime.bodies.joints import person_figure, person_joints
 from runtime.bodies.obstacle_odds import odds_at
 from runtime.bodies.person_orders import ARRIVED, Order, OrdersState, PersonOrders
-from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, Population, recall, saved_parts
+from runtime.bodies.protocol import PLANS_KEPT, Driver, Follower, recall, saved_parts
 from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
 from runtime.planning.planning import NoWay, Plan, way_holds
 from runtime.traffic.snapshot import foretold_on
 from surefoot.numeric import is_finite
-from surefoot.pausing import pause
-from surefoot.workers.threads import Threads
 
-__all__ = ["HumanDriver", "People", "SavedPerson", "chance_at"]
+__all__ = ["HumanDriver", "SavedPerson", "simulated_size"]
 
-_ASKEW = 0.4  # [rad] that a body which physics takes over may face off its way
-_SPOTS, _BESIDE = np.array([-0.4, 0.0, 0.4, 0.8, 1.2]), 0.15  # [m] along its way and beside it,
-_UNEVEN = 0.02  # where the ground is no more than this [m] higher or lower
 _STEEP = 20.0  # [degrees] of ground that is worth mentioning
-_HESITATES = 0.4  # [s] at most, from a stand: less than half a step
 _ENDS = Arrived, GotStuck, MissedGoal, StrayedFromPath
-
-
-class _Learned(NamedTuple):
-    """What people have learned, read once for all of a world."""
-
-    run: RunSkill
-    clearing: tuple[ClearingSkill, ...]
-    walk: WalkSkill
-    between: BetweenGaits
-    policy: PolicySkill | None
-
-    @classmethod
-    def read(cls, skills: Sequence[Path], walk: str) -> "_Learned":
-        run = load_run_skill()
-        between = BetweenGaits(
-            load_slow_down_skill(),
-            load_speed_up_skill(),
-            load_brake_skill(),
-            load_brake_residual(),
-            load_landing_residual(),
-        )
-        policy = load_policy() if walk == "learned" else None
-        return cls(run, tuple(learned_skills(run, skills)), load_walk_skill(), between, policy)
-
-
-@dataclass(frozen=True)
-class Fading:
-    """How a person is drawn beside its simulated pose ``since`` [s] it was made: see
-    `locomotion.recorded_people.fading`."""
-
-    offsets: np.ndarray
-    rates: np.ndarray
-    seconds: float
-    since: float
-
-
-def chance_at(place: np.ndarray, seed: int) -> np.random.Generator:
-    """What is by chance in somebody who appears at ``place`` (3,) [m] in a world of this ``seed``."""
-    millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
-    return np.random.default_rng((seed, *millimetres))
-
-
-class People(Population):
-    """Simulated persons. ``skills``: descriptions of those of one's own that they have besides the
-    package's; ``rehearsals``: as of `Human`; ``seed`` decides how long each of them hesitates; ``walk``: one
-    of `runtime.bodies.kinds.kind.WALKS`; ``rehearsal_ticks``, ``threads``: as of `runtime.World`."""
-
-    def __init__(
-        self,
-        level: Level,
-        skills: Sequence[Path] = (),
-        rehearsals: int = REHEARSALS,
-        seed: int = 0,
-        walk: str = "learned",
-        rehearsal_ticks: int | None = REHEARSAL_TICKS,
-        threads: int = 1,
-    ) -> None:
-        self._level, self._skills = level, skills
-        self._rehearsals = 0 if rehearsal_ticks == 0 else rehearsals
-        self._seed, self._walk, self._rehearsal_ticks = seed, walk, rehearsal_ticks
-        self._threads = Threads(threads)
-        self._drivers: list[HumanDriver] = []
-        self._learned: _Learned | None = None  # shared by all
-        self._spare: dict[float, list[Human]] = {}
-        self._unused: dict[float, HumanState] = {}
-
-    def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> Driver:
-        driver = self._make(1.0)
-        driver.body.reset(place, facing)
-        chance = chance_at(place, self._seed)
-        driver.hesitates = round(float(chance.uniform(0.0, _HESITATES)), 2)
-        driver.human.habit = float(chance.random())
-        self._drivers.append(driver)
-        return driver
-
-    def revive(self, body: str, state: Any) -> Driver:
-        driver = self._make(1.0)
-        driver.restore(state)  # raises for one of another release, who is then not here
-        self._drivers.append(driver)
-        return driver
-
-    def take_over(self, person: RecordedPerson) -> "HumanDriver | None":
-        """Let physics go on from where recorded motion is; None while it cannot: with something in the hands,
-        on uneven ground, or in a motion that the controllers do not know."""
-        walker = person.walker
-        speed, place = float(np.hypot(*walker.velocity)), person.position
-        size = _simulated_size(float(person.row[at.TRAITS][SIZE]))
-        root = math.sqrt(size)
-        if not person.has_free_hands or walker.status == "stuck":
-            return None
-        pose, pose_rates = person.qpos, person.qpos_rates
-        if speed <= AT_REST:
-            if walker.status == "walking":
-                return None  # it waits for others
-            driver = self._make(size)
-            driver.body.reset(place, walker.yaw)
-        else:
-            moment = moment_like(person.status == "running", speed / root, pose, root * pose_rates[6:])
-            heading = math.atan2(walker.velocity[1], walker.velocity[0])
-            off = abs(math.remainder(heading - walker.yaw, 2.0 * math.pi))
-            if (
-                moment is None
-                or walker.status != "walking"
-                or off > _ASKEW
-                or not self._level_at(place, heading)
-            ):
-                return None
-            driver = self._make(size)
-            set_in_motion(driver.human, moment, pose[:2] / size, float(place[2]) / size, heading)
-        driver.human.habit = float(chance_at(place, self._seed).random())
-        driver.fade(pose, pose_rates)
-        self._drivers.append(driver)
-        return driver
-
-    def _level_at(self, place: np.ndarray, heading: float) -> bool:
-        """Whether the ground is level around ``place`` (3,) and on the first steps towards ``heading``."""
-        ahead = np.array([math.cos(heading), math.sin(heading)])
-        spots = place + np.zeros((_SPOTS.size * 3, 3))
-        across = np.array([-ahead[1], ahead[0]])
-        spots[:, :2] += (
-            _SPOTS[:, None, None] * ahead + np.array([-_BESIDE, 0.0, _BESIDE])[:, None] * across
-        ).reshape(-1, 2)
-        spots[:, 2] += 0.5
-        heights = self._level.ground.surface_below(spots)[0]
-        return bool((np.abs(heights - place[2]) <= _UNEVEN).all())
-
-    def _make(self, size: float) -> "HumanDriver":
-        return HumanDriver(self, self._level, SizedHuman(self.human(size), size))
-
-    def human(self, size: float) -> Human:
-        """One of a ``size``, as good as new, who stands somewhere."""
-        if self._learned is None:
-            self._learned = _Learned.read(self._skills, self._walk)
-        if self._spare.get(size):
-            human = self._spare[size].pop()
-            human.restore_state(self._unused[size])
-            return human
-        run, clearing, walk, between, policy = self._learned
-        human = Human(
-            self._level.ground_for(size), run, clearing, walk, between, self._rehearsals, gets_up=True,
-            policy=policy,
-        )  # fmt: skip
-        human.waits = self._rehearsal_ticks is None
-        human.get_ready()
-        self._unused.setdefault(size, human.save_state())
-        return human
-
-    def retire(self, driver: Driver) -> None:
-        """Have one less, whose body nobody holds any more: the next one gets it, as good as new."""
-        assert isinstance(driver, HumanDriver)
-        self.remove(driver)
-        self.put_back(driver.human, driver.body.size)
-
-    def put_back(self, human: Human, size: float) -> None:
-        """Keep who is not needed any more for `human`."""
-        human.bravery = None
-        self._spare.setdefault(size, []).append(human)
-
-    def remove(self, driver: Driver) -> None:
-        self._drivers = [each for each in self._drivers if each is not driver]
-
-    def in_the_way(self) -> np.ndarray:
-        humans = [driver.human for driver in self._drivers]
-        rows = np.empty((len(humans), 6))
-        rows[:, :3], velocities = movements_of([driver.body for driver in self._drivers])
-        rows[:, 3:5] = velocities[:, :2]
-        rows[[each.held for each in humans], 3:5] = 0.0
-        rows[:, 5] = PERSON_RULES["radius"]
-        return rows
-
-    def followers(self) -> Sequence[Follower]:
-        return self._drivers
-
-    def remember(self) -> None:
-        for driver in self._drivers:
-            driver.before = driver.body.glimpse()
-
-    def change_level(self) -> None:
-        self._spare, self._unused = {}, {}
-        for driver in self._drivers:
-            driver.human.change_ground(self._level.ground_for(driver.body.size))
-            driver.plan_again()
-
-    def change_zones(self) -> None:
-        for driver in self._drivers:
-            driver.plan_again()
-
-    def tick(self) -> None:
-        for driver in self._drivers:
-            driver.go_on_planning()
-        bodies = [driver.body for driver in self._drivers]
-        humans = [body.human for body in bodies]
-        allotted = None if self._rehearsal_ticks is None else allot(humans, self._rehearsal_ticks)
-
-        def go_on(number: int) -> None:
-            bodies[number].tick(since_foresees=allotted is not None)
-            if allotted is not None and allotted[number]:
-                humans[number].look_ahead(allotted[number])
-            pause()
-
-        self._threads.each(go_on, len(humans))
 
 
 class SavedPerson(NamedTuple):
@@ -276,29 +52,27 @@ class SavedPerson(NamedTuple):
     owed: float
 
 
-def _simulated_size(size: float) -> float:
+def simulated_size(size: float) -> float:
     """Sizes of simulated people are in steps of 1 %: those of one share a model and the ground in their
     measure."""
     return round(size, 2)
 
 
 class HumanDriver(Driver):
-    """A person. ``before``: what it looked like when `People.remember` was called, or None.
+    """A person. ``body``: it, in the world's measure; ``look``: how it is seen.
     ``hesitates``: [s] after which it sets out from a stand: people told the same do not step as one.
     ``style``: its traits, those left out are the usual ones."""
 
     tries_other_ways = plans_in_slices = True
 
-    def __init__(self, population: People, level: Level, body: SizedHuman) -> None:
-        self._population, self._level, self.body = population, level, body
+    def __init__(self, pool: HumanPool, level: Level, body: SizedHuman) -> None:
+        self._pool, self._level, self.body = pool, level, body
         self.radius = PERSON_RULES["radius"]
-        self.figure = person_figure(body.size)
+        self.figure, self.look = person_figure(body.size), HumanLook(body)
         self.events = body.human.events
         self.plans: deque[Plan] = deque(maxlen=PLANS_KEPT)
-        self.before: Glimpse | None = None
         self.hesitates = 0.0
         self.style: dict[str, float] = {}
-        self._fading: Fading | None = None
         self._orders = PersonOrders(level, body)
         self._former: tuple[Course | None] | None = None
 
@@ -415,7 +189,7 @@ class HumanDriver(Driver):
             row = by_hand(None, **{**self.style, **traits})
         except LocomotionError as error:
             raise RuntimeInputError(str(error)) from None
-        size = _simulated_size(float(row[SIZE]))
+        size = simulated_size(float(row[SIZE]))
         if size != self.body.size:
             self._resize(size)
         self.style |= traits
@@ -436,12 +210,12 @@ class HumanDriver(Driver):
     def _exchange(self, size: float) -> None:
         """Go on with the body of a person of another size, wherever that stands."""
         before = self.human
-        human = self._population.human(size)
+        human = self._pool.take(size)
         human.events, before.events = before.events, []  # its agent keeps the list
         human.bravery = before.bravery
-        self._population.put_back(before, self.body.size)
+        self._pool.put_back(before, self.body.size)
         self.body.become(human, size)
-        self.figure, self.before = person_figure(size), None
+        self.figure, self.look.before = person_figure(size), None
 
     @property
     def traits(self) -> Mapping[str, float]:
@@ -472,44 +246,18 @@ class HumanDriver(Driver):
         human = self.human
         return not human.fours.active and human.status not in (*CLEARING.values(), "fallen", "getting up")
 
-    def drawn(self) -> tuple[np.ndarray, np.ndarray]:
-        """The pose (46,) in which it is drawn, and how fast that changes (45,), as `fading.rates`."""
-        pose, now = self.body.pose(), self.body.rates()
-        if self._fading is None:
-            return pose, now
-        before, after = self._faded(pose, -0.5 * CONTROL_DT), self._faded(pose, 0.5 * CONTROL_DT)
-        return self._faded(pose, 0.0), now + rates(before, after, CONTROL_DT)
-
-    def fade(self, pose: np.ndarray, pose_rates: np.ndarray) -> None:
-        """Let it look as if it came from ``pose`` (46,), which changed by ``pose_rates`` (45,)."""
-        self._fading = None
-        offsets, offset_rates, seconds = fade_from(pose, pose_rates, *self.drawn())
-        self._fading = Fading(offsets, offset_rates, seconds, self.time)
-
-    def _faded(self, pose: np.ndarray, ahead: float) -> np.ndarray:
-        fading = self._fading
-        if fading is None:
-            return pose
-        elapsed = self.time - fading.since + ahead
-        if elapsed >= fading.seconds:
-            return pose
-        return faded(pose, fading.offsets, fading.rates, fading.seconds, max(elapsed, 0.0))
-
     @property
     def joints(self) -> Joints:
         return person_joints(self.body.size)
 
     def joint_pose(self) -> np.ndarray:
-        return self._faded(self.body.pose(), 0.0)
+        return self.look.pose()
 
     def transforms(self) -> np.ndarray:
         return self.body.transforms(self.joint_pose(), len(self.figure.bodies))
 
     def transforms_between(self, share: float) -> np.ndarray:
-        if self.before is None:
-            return self.transforms()
-        pose = self.body.mixed(self.body.pose(self.before), self.body.pose(), share)
-        return self.body.transforms(self._faded(pose, (share - 1.0) * CONTROL_DT), len(self.figure.bodies))
+        return self.body.transforms(self.look.pose_between(share), len(self.figure.bodies))
 
     def plan(self, goals: np.ndarray) -> Plan:
         return self._orders.planned(self._orders.told(goals, 1.0)).finish()
@@ -651,7 +399,7 @@ class HumanDriver(Driver):
 
     def save(self) -> SavedPerson:
         return SavedPerson(
-            self.human.save_state(), tuple(self.plans)[-1:], self.hesitates, self._fading,
+            self.human.save_state(), tuple(self.plans)[-1:], self.hesitates, self.look.fading,
             self._orders.save(), self.body.size, self.body.owed,
         )  # fmt: skip
 
@@ -669,9 +417,7 @@ class HumanDriver(Driver):
         check_number("the size of a person", state.size, least, most)
         check_number("what a person is behind its world", state.owed, 0.0, 1.0)
         if fading is not None:
-            check_array("what fades of a person's pose", fading.offsets, 45)
-            check_array("how fast a person's pose fades", fading.rates, 45)
-            check_number("how long a person's pose fades", fading.seconds, 1e-3, 10.0)
+            fading.check()
         if state.size != self.body.size:
             self._exchange(state.size)
         check_person(body, self.human)
@@ -680,8 +426,8 @@ class HumanDriver(Driver):
         self._orders.restore(orders)
         self._former = None
         recall(self.plans, plans)
-        self.hesitates, self._fading = hesitates, fading
-        self.before, self.style = None, {}
+        self.hesitates, self.style = hesitates, {}
+        self.look.before, self.look.fading = None, fading
 
     def state_hash(self) -> str:
         own, orders = self.human.state_hash(), self._orders.save()

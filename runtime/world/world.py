@@ -99,8 +99,8 @@ class World:
     (`locomotion.human.learned_walk`); or "planned": without it. A state is restored in a world with the same
     ``walk``.
 
-    ``sizes``: least and greatest size of the people that `spawn` makes (1 is 1.76 m, see `Agent.set_style`), in
-    steps of 1 %, by the seed and the place; (0.88, 1.08) is 1.55 to 1.90 m. Each size takes load time once.
+    ``sizes``: least and greatest size of the people that `spawn` makes, by the seed and the place, in steps
+    of 1 %; 1 is 1.76 m, (0.88, 1.08) is 1.55 to 1.90 m (`Agent.set_style`). Each size takes load time once.
 
     ``threads``: how many advance people side by side; the run is the same with any number, but not with other
     ``rehearsals`` or ``rehearsal_ticks``.

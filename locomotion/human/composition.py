@@ -126,12 +126,13 @@ class Composition:
 
     def _why_not(self, obstacle: ObstacleAhead, odds: float) -> str:
         """Why it does not run at ``obstacle``, with these ``odds``."""
-        what = f"the {obstacle.affordance} of {obstacle.size:.2f} m"
+        size = self._person.size
+        what = f"the {obstacle.affordance} of {size * obstacle.size:.2f} m"
         known = self.precondition(self._person.run_up.skill_for(obstacle))
         if known is None or known.covers(obstacle.size):
             return f"its odds of clearing {what} are {100.0 * odds:.0f} %"
         low, high = known.heights
-        return f"{what} is beyond the {low:.2f} to {high:.2f} m that it has learned"
+        return f"{what} is beyond the {size * low:.2f} to {size * high:.2f} m that it has learned"
 
     def choose_take_off(self) -> None:
         """Just after a step of a run-up has begun: take the best variation of it, or turn away."""

@@ -86,7 +86,7 @@ class GaitChanges:
         if near:
             ahead = run_up.ahead
             assert ahead is not None
-            reason = f"it finds no run-up to the {ahead.affordance} of {ahead.size:.2f} m"
+            reason = f"it finds no run-up to the {ahead.affordance} of {person.size * ahead.size:.2f} m"
             person.end("stuck", GotStuck(person.time, person.point, reason=reason))
             return
         heading = float(person.command[HEADING_ASKED])

@@ -47,7 +47,8 @@ class Person:
       command: heading and speeds for the controllers, (4,).
       status, events: see `locomotion.human.human.Human`. ticks: since the person was made. ended_at: the tick
         in which it fell or stopped. habit: 0 to 1, what makes it an individual at rest (`idle.idle_pose`); it
-        does not change.
+        does not change. size: how large it is in the world (`locomotion.human.measure`), for the reasons that
+        it gives.
     """
 
     def __init__(self, ground: Ground | None, on_feet: OnFeet, clearing: Sequence[ClearingSkill]) -> None:
@@ -59,7 +60,7 @@ class Person:
         self.events: list[Event] = []
         self.ticks = self.ended_at = 0
         self.status: Status = "standing"
-        self.habit = 0.0
+        self.habit, self.size = 0.0, 1.0
         self.put(np.zeros(3) if ground is None else 0.5 * (ground.low + ground.high), 0.0, 0.0)
 
     def put(self, position: NDArray[np.float64], yaw: float, speed: float) -> None:

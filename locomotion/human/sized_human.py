@@ -51,7 +51,7 @@ class SizedHuman:
     def become(self, human: Human, size: float, owed: float = 0.0) -> None:
         """Go on as another person, or from another state of it."""
         self.human, self.size, self._measure = human, size, Measure(size)
-        self.owed = owed
+        human.size, self.owed = size, owed
         self._before: _Moment | None = None
 
     # --- time

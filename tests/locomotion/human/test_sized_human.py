@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from locomotion import Ground, Human
+from locomotion.body_events import GotStuck, TurnedAway
 from locomotion.ground.ground import extruded
 from locomotion.human.simulation import movements
 from locomotion.human.sized_human import SizedHuman, movements_of
+from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.preconditions.precondition import Precondition, load_preconditions
 
 FLOOR = extruded([(0.0, 0.0), (6.0, 0.1), (20.0, 0.1)], 3.0)
 PATH = np.array([(2.0, 0.0, 0.0333), (18.0, 0.0, 0.1)])
@@ -69,6 +72,20 @@ def test_bodies_of_a_pose_are_where_the_person_is():
     bodies = body.transforms(body.pose(), 20)
     np.testing.assert_allclose(bodies[0, :3], body.pose()[:3])
     assert bodies[:, 2].max() - body.position[2] == pytest.approx(0.9 * 1.4, abs=0.05)
+
+
+def test_the_reasons_that_it_gives_are_in_the_worlds_measure(monkeypatch):
+    body = SizedHuman(Human(rehearsals=0), 0.9)
+    monkeypatch.setattr(Precondition, "odds_before", lambda self, rows: np.full(len(rows), 0.1))
+    body.human.composition.preconditions, body.human.bravery = load_preconditions(), 0.4
+    wall = ObstacleAhead(9.0, "vault", 0.81, np.array([9.0, 0.0, 0.81]), np.array([-1.0, 0.0, 0.0]), 0.3)
+    body.follow(np.array([(0.0, 0.0, 0.0), (18.0, 0.0, 0.0)]), 3.5, [wall])
+    while body.human.status == "walking":
+        body.tick(since_foresees=False)
+    *_, turned, stuck = map(body.in_world, body.human.events)
+    assert isinstance(turned, TurnedAway) and turned.size == pytest.approx(0.81)
+    assert isinstance(stuck, GotStuck)
+    assert stuck.reason == "its odds of clearing the vault of 0.81 m are 10 %"
 
 
 def test_people_of_all_sizes_are_looked_for_at_once():

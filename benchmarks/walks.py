@@ -11,6 +11,7 @@ not hold), the other only the planned one:
 - slope, stairs: up and down over 2 to 16 degrees; over seven steps of 0.1 to 0.18 m
 - rooms: ways through doors 1.2 m wide and around corners
 - pushed: a walk with a push of 50 to 200 N for 0.1 s from any side every 2 to 4 s, for half a minute
+- pushed where it stands: with 300 N for 0.1 s every 3 s, from twelve sides
 - run: runs at 2.5 to 3.5 m/s from a stand and back to one, a stop on the way in a half of them
 - orders at a run: a minute of goals and stops at 0.8 to 4 m/s, a new one every 2 to 8 s, on 50 x 50 m
 - crowd: 16 people in 12 x 12 m with goals all over it, for half a minute
@@ -39,6 +40,7 @@ from runtime.planning.rules import person_walk_rules
 from surefoot.workers.pool import worker_pool
 
 _PUSH, _LIMIT = 0.1, 90.0  # [s] that a push takes, and that a way may take
+_HARD = 300.0  # [N]
 _NEAR = 0.6  # [m] from the middle of a slope where ways begin and end
 Scene = Callable[["Stage", np.random.Generator], None]
 
@@ -209,10 +211,16 @@ def pushed(stage: Stage, rng: np.random.Generator) -> None:
             agent.go_to(_somewhere(stage, rng), speed=float(rng.uniform(0.8, 1.4)))
         stage.go_on(float(rng.uniform(2.0, 4.0)))
         side, force = rng.uniform(-math.pi, math.pi), rng.uniform(50.0, 200.0)
-        human = agent.human
-        human.data.xfrc_applied[human.index.root, :2] = force * math.cos(side), force * math.sin(side)
-        stage.go_on(_PUSH)
-        human.data.xfrc_applied[human.index.root, :2] = 0.0
+        agent.push((force * math.cos(side), force * math.sin(side), 0.0), _PUSH)
+
+
+def pushed_standing(stage: Stage, rng: np.random.Generator) -> None:
+    """A push every 3 s, from twelve directions in any order."""
+    agent = stage.spawn((6.0, 6.0, 0.0), float(rng.uniform(-math.pi, math.pi)))
+    for side in rng.permutation(12) * math.pi / 6.0:
+        stage.go_on(3.0)
+        agent.push(_HARD * np.array([math.cos(side), math.sin(side), 0.0]), _PUSH)
+    stage.go_on(3.0)
 
 
 def run(stage: Stage, rng: np.random.Generator) -> None:
@@ -275,6 +283,7 @@ SCENES: dict[str, tuple[Callable[[np.random.Generator], navmesh.NodeGraph], Scen
     "stairs": (_stairs, up_and_down),
     "rooms": (lambda rng: rooms(), ways),
     "pushed": (lambda rng: hall(), pushed),
+    "pushed where it stands": (lambda rng: hall(), pushed_standing),
     "run": (_long_hall, run),
     "orders at a run": (lambda rng: hall(50.0), partial(orders, speeds=(0.8, 4.0), apart=(2.0, 8.0))),
     "crowd": (lambda rng: hall(), crowd),

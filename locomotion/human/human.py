@@ -290,6 +290,24 @@ class Human(Person):
             if not self.run_up.clearing:
                 self.run_up.begin(())
 
+    def push(self, force: ArrayLike, seconds: float = 0.1) -> None:
+        """Push it at the chest with ``force`` (3,) [N] for so many ``seconds``, in whole ticks, instead of
+        what pushes it now. One that is held is simulated again.
+
+        Raises `LocomotionError` for a force that is not three finite numbers, and for less than a tick.
+        """
+        newtons = as_floats(force)
+        if newtons is None or newtons.shape != (3,) or not np.isfinite(newtons).all():
+            raise LocomotionError(f"force must be three finite numbers [N], not {force!r}")
+        if not (is_finite(seconds) and round(seconds / CONTROL_DT) >= 1):
+            raise LocomotionError(f"a push lasts {CONTROL_DT:g} s or more, not {seconds!r}")
+        if self.held:
+            self.data.qpos[:] = self.pose()
+            self.ended_at = self.ticks
+            self.on_feet.stir(self.control)
+        self.data.xfrc_applied[self.index.chest, :3] = newtons
+        self.pushed_until = self.ticks + round(seconds / CONTROL_DT)
+
     def change_ground(self, ground: Ground) -> None:
         """Continue on another ground. A person at rest is simulated again if its footing has changed by more
         than 1 cm. It counts as fallen if there is no ground below it, or if it is held without having come
@@ -366,6 +384,9 @@ class Human(Person):
             if lookahead is not None:
                 lookahead.be_surprised()
             self._tick()
+        if self.pushed_until and self.ticks >= self.pushed_until:
+            self.data.xfrc_applied[self.index.chest] = 0.0
+            self.pushed_until = 0
         if lookahead is not None:
             lookahead.look_back()
             if lookahead.waits:

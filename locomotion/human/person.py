@@ -46,9 +46,9 @@ class Person:
       run_up: the obstacles on the path and how it clears them. fours: how it goes on hands and feet.
       command: heading and speeds for the controllers, (4,).
       status, events: see `locomotion.human.human.Human`. ticks: since the person was made. ended_at: the tick
-        in which it fell or stopped. habit: 0 to 1, what makes it an individual at rest (`idle.idle_pose`); it
-        does not change. size: how large it is in the world (`locomotion.human.measure`), for the reasons that
-        it gives.
+        in which it fell or stopped. pushed_until: the tick at the end of which a push ends, 0 without one.
+        habit: 0 to 1, what makes it an individual at rest (`idle.idle_pose`); it does not change. size: how
+        large it is in the world (`locomotion.human.measure`), for the reasons that it gives.
     """
 
     def __init__(self, ground: Ground | None, on_feet: OnFeet, clearing: Sequence[ClearingSkill]) -> None:
@@ -58,7 +58,7 @@ class Person:
         self.fours = OnAllFours(self.model, self.index)
         self.command = np.zeros(4)
         self.events: list[Event] = []
-        self.ticks = self.ended_at = 0
+        self.ticks = self.ended_at = self.pushed_until = 0
         self.status: Status = "standing"
         self.habit, self.size = 0.0, 1.0
         self.put(np.zeros(3) if ground is None else 0.5 * (ground.low + ground.high), 0.0, 0.0)
@@ -179,7 +179,7 @@ class Person:
     @property
     def held(self) -> bool:
         """Whether the person is kept still and not simulated: at rest, or fallen for a second."""
-        if self.status in MOVING:
+        if self.status in MOVING or self.pushed_until:
             return False
         stopped = self.ticks - self.ended_at
         if self.status == "fallen":

@@ -211,7 +211,7 @@ def check_person(state: HumanState, human: Human) -> None:
     on_path = state.interrupted is not None or state.status in ("walking", "running", *CLEARING.values())
     if state.path is None and on_path:
         raise LocomotionError(f"a person is {state.status} along no path")
-    for what in (state.ticks, state.ended_at):
+    for what in (state.ticks, state.ended_at, state.pushed_until):
         check_number("a tick of a person", what, 0, 2**53)
     check_number("the habit of a person", state.habit, 0.0, 1.0)
     spent, begins = state.foresight

@@ -217,6 +217,11 @@ class SizedHuman:
         own = tuple(self.own(each) for each in obstacles)
         self.human.follow(path / self.size, speed / root, own, hesitates / root)
 
+    def push(self, force: NDArray[np.float64], seconds: float) -> None:
+        """As `Human.push`: it weighs as much as its size to the power of three says."""
+        own = max(seconds / self._measure.root, CONTROL_DT)
+        self.human.push(force / self.size**3, own)
+
     def give_way(self, pace: float, shift: NDArray[np.float64] | None) -> None:
         """As `Human.give_way`."""
         self.human.give_way(pace, None if shift is None else self._measure.shift(shift))

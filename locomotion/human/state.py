@@ -68,6 +68,7 @@ class HumanState(NamedTuple):
     status: Status
     ticks: int
     ended_at: int
+    pushed_until: int
     habit: float
     events: tuple[Event, ...]
     foresight: tuple[int, int] = (0, 0)
@@ -117,6 +118,7 @@ _FIELDS = (
     _Field("status", "", "status"),
     _Field("ticks", "", "ticks"),
     _Field("ended_at", "", "ended_at"),
+    _Field("pushed_until", "", "pushed_until"),
     _Field("habit", "", "habit"),
 )
 _SKILL = [field.name for field in _FIELDS].index("skill")  # the only one that changes in place

@@ -221,6 +221,9 @@ class HumanDriver(Driver):
     def traits(self) -> Mapping[str, float]:
         return self.style
 
+    def push(self, force: np.ndarray, seconds: float) -> None:
+        self.body.push(force, seconds)
+
     def odds(self, obstacle: int | str) -> float:
         try:
             return odds_at(self.body, self._level.graph, obstacle, self.tag_ahead)

@@ -157,6 +157,10 @@ class Driver(ABC):
         if bravery is not None:
             raise RuntimeInputError("it has no bravery; only a human has")
 
+    def push(self, force: np.ndarray, seconds: float) -> None:
+        """As `runtime.Agent.push`."""
+        raise RuntimeInputError("it cannot be pushed; only a human with physics can")
+
     def odds(self, obstacle: int | str) -> float:
         """As `runtime.Agent.odds`."""
         raise RuntimeInputError("its odds are not known; only those of a human with physics are")

@@ -35,6 +35,7 @@ __all__ = [
     "Leave",
     "Level",
     "Players",
+    "Push",
     "Remove",
     "Request",
     "Restore",
@@ -57,6 +58,7 @@ PROTOCOL = 2
 _Name = Annotated[str, Field(min_length=1, max_length=40, pattern=r"^[\w .-]+$")]
 _Metres = Annotated[float, Field(ge=-1e6, le=1e6)]
 _Point = tuple[_Metres, _Metres, _Metres]
+_Newtons = Annotated[float, Field(ge=-1e5, le=1e5)]
 _Angle = Annotated[float, Field(ge=-100.0, le=100.0)]
 
 
@@ -194,6 +196,16 @@ class SetStyle(_Request):
     traits: Annotated[dict[Annotated[str, Field(max_length=40)], float], Field(min_length=1, max_length=16)]
 
 
+class Push(_Request):
+    """Push a simulated person at its chest with a ``force`` [N] for so many ``seconds``."""
+
+    type: Literal["push"]
+    world: _Name
+    agent: _Name
+    force: tuple[_Newtons, _Newtons, _Newtons]
+    seconds: Annotated[float, Field(ge=0.01, le=10.0)] = 0.1
+
+
 class Viewer(_Message):
     """A camera or a player; ``field_of_view`` [rad] from edge to edge."""
 
@@ -291,6 +303,7 @@ Request = Annotated[
     | Hold
     | SetDetail
     | SetStyle
+    | Push
     | Viewers
     | Players
     | Stop

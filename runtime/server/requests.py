@@ -153,6 +153,13 @@ class Requests:
             self._worlds.announce(hosted, {"type": "agent", "world": hosted.name, "agent": dressed})
         return {}
 
+    async def _do_push(self, client: Client, request: m.Push) -> Any:
+        return await self._tell(
+            client,
+            request.world,
+            lambda hosted: hosted.agent(request.agent).push(request.force, request.seconds),
+        )
+
     async def _do_viewers(self, client: Client, request: m.Viewers) -> Any:
         viewers = [Viewer(each.position, each.direction, each.field_of_view) for each in request.viewers]
         return await self._tell(

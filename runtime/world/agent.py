@@ -36,6 +36,7 @@ from runtime.world.agent_state import AgentState, Errand
 from runtime.world.arguments import checked_number, checked_points
 from runtime.world.level_of_detail import AUTO, PHYSICS, checked_detail
 from runtime.world.news import news_of
+from surefoot.numeric import as_floats
 
 __all__ = ["Agent", "Pose"]
 
@@ -43,6 +44,7 @@ _POSTURED = "full"  # the level of a simulated person while it takes a posture
 _FATAL = "dead"  # the posture that is taken at once
 _CARRIED_OFF = 0.5  # [m] beside its path from which a person that has got up takes another one
 _ATTEMPTS = 3  # of a person that is stuck or lost to find another way to its goals
+_SHORTEST_PUSH, _LONGEST_PUSH = 0.01, 10.0  # [s]
 _TURNINGS = 6  # times that it goes back before the same obstacle, until it is stuck
 _Kind = TypeVar("_Kind")
 _AT_REST = "standing", "arrived"
@@ -232,6 +234,23 @@ class Agent:
         which no odds are known, or a body without odds.
         """
         return self._driver.odds(obstacle)
+
+    def push(self, force: ArrayLike, seconds: float = 0.1) -> None:
+        """Push a person that is simulated: with ``force`` (3,) [N] at its chest, for so many ``seconds`` of
+        the world from now on, 0.01 to 10, instead of what pushes it now. It gives way, takes steps, goes on,
+        or falls and gets up. A hard shove is 200 N for 0.1 s. Takes constant time.
+
+        Raises `RuntimeInputError` for a force or a time that is none, and for a body that is not simulated.
+        """
+        newtons = as_floats(force)
+        if newtons is None or newtons.shape != (3,) or not np.isfinite(newtons).all():
+            raise RuntimeInputError(f"force must be three finite numbers [N], not {force!r}")
+        seconds = checked_number(seconds, "seconds", "s")
+        if not _SHORTEST_PUSH <= seconds <= _LONGEST_PUSH:
+            raise RuntimeInputError(
+                f"seconds must be from {_SHORTEST_PUSH:g} to {_LONGEST_PUSH:g}, not {seconds!r}"
+            )
+        self._driver.push(newtons, seconds)
 
     # --- detail and postures
     @property

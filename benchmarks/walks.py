@@ -11,7 +11,7 @@ not hold), the other only the planned one:
 - slope, stairs: up and down over 2 to 16 degrees; over seven steps of 0.1 to 0.18 m
 - rooms: ways through doors 1.2 m wide and around corners
 - pushed: a walk with a push of 50 to 200 N for 0.1 s from any side every 2 to 4 s, for half a minute
-- pushed where it stands: with 300 N for 0.1 s every 3 s, from twelve sides
+- pushed where it stands: with 300 N for 0.1 s every 6 s, from twelve sides
 - run: runs at 2.5 to 3.5 m/s from a stand and back to one, a stop on the way in a half of them
 - orders at a run: a minute of goals and stops at 0.8 to 4 m/s, a new one every 2 to 8 s, on 50 x 50 m
 - crowd: 16 people in 12 x 12 m with goals all over it, for half a minute
@@ -215,12 +215,12 @@ def pushed(stage: Stage, rng: np.random.Generator) -> None:
 
 
 def pushed_standing(stage: Stage, rng: np.random.Generator) -> None:
-    """A push every 3 s, from twelve directions in any order."""
+    """A push every 6 s, from twelve directions in any order."""
     agent = stage.spawn((6.0, 6.0, 0.0), float(rng.uniform(-math.pi, math.pi)))
     for side in rng.permutation(12) * math.pi / 6.0:
-        stage.go_on(3.0)
+        stage.go_on(6.0)
         agent.push(_HARD * np.array([math.cos(side), math.sin(side), 0.0]), _PUSH)
-    stage.go_on(3.0)
+    stage.go_on(6.0)
 
 
 def run(stage: Stage, rng: np.random.Generator) -> None:

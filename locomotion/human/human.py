@@ -291,7 +291,7 @@ class Human(Person):
                 self.run_up.begin(())
 
     def push(self, force: ArrayLike, seconds: float = 0.1) -> None:
-        """Push it at the chest with ``force`` (3,) [N] for so many ``seconds``, in whole ticks, instead of
+        """Push it at the waist with ``force`` (3,) [N] for so many ``seconds``, in whole ticks, instead of
         what pushes it now. One that is held is simulated again.
 
         Raises `LocomotionError` for a force that is not three finite numbers, and for less than a tick.
@@ -305,7 +305,7 @@ class Human(Person):
             self.data.qpos[:] = self.pose()
             self.ended_at = self.ticks
             self.on_feet.stir(self.control)
-        self.data.xfrc_applied[self.index.chest, :3] = newtons
+        self.data.xfrc_applied[self.index.bodies["waist"], :3] = newtons
         self.pushed_until = self.ticks + round(seconds / CONTROL_DT)
 
     def change_ground(self, ground: Ground) -> None:
@@ -385,8 +385,9 @@ class Human(Person):
                 lookahead.be_surprised()
             self._tick()
         if self.pushed_until and self.ticks >= self.pushed_until:
-            self.data.xfrc_applied[self.index.chest] = 0.0
+            self.data.xfrc_applied[self.index.bodies["waist"]] = 0.0
             self.pushed_until = 0
+            self.on_feet.catch(self.simulation)
         if lookahead is not None:
             lookahead.look_back()
             if lookahead.waits:
@@ -423,6 +424,8 @@ class Human(Person):
             feet.steer(follower, state, moving, planned, self.ticks, self.command)
             free = self.run_up.ahead is None
             feet.choose_walk(follower, moving, self.simulation, self.command, free)
+        elif self.status == "standing" and not self.pushed_until:
+            feet.choose_walk(follower, False, self.simulation, self.command, True)
         feet.tick(self.simulation.lookup, state, self.command, data)
         if self.status != "fallen":
             if feet.runs:

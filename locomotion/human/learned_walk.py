@@ -113,6 +113,11 @@ class LearnedWalk:
         return self.active and self._state.item(at.FAST) > 0.0
 
     @property
+    def stands(self) -> bool:
+        """Whether it stands, on both feet."""
+        return self.active and self._state.item(at.RUNNING) == 0.0
+
+    @property
     def may_run(self) -> bool:
         """Whether it is to run where the path says so."""
         return self.memory.item(MAY_RUN) > 0.0
@@ -152,10 +157,10 @@ class LearnedWalk:
         if self.runs:
             return True  # nothing else can go on from here
         way, active, arc = follower.path, self.active, follower.arc
-        if way is None:
-            return False
         if not moving and walk[PHASE] == STANDING:
             return bool(is_level_around(body.lookup, *body.position.tolist()))
+        if way is None:
+            return False
         far = _LEAVES if active else _SEES
         if not active and walk[PHASE] != STANDING:
             if not moving or command[SPEED_ASKED] < SLOWEST or follower.remaining < far:

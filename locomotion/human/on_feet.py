@@ -78,6 +78,7 @@ _HELD_UP = 12.0  # steps after which a pushed person that has braked need not co
 _GENTLY, _RESTS = 1.2, 1.0  # [m/s^2] of slowing down as learned on its way, and [m] walked at its end
 _NOTHING = np.zeros(0)
 _UPRIGHT = 0.8  # [m] of the centre of mass over the lower foot of one that stands
+_CALM, _THROWN = 0.1, 0.12  # [m/s] of one that may stand as learned, and that has been thrown off that
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 
 
@@ -208,6 +209,12 @@ class OnFeet:
         before."""
         return self.on_uneven_ground and self.begins_step and bool(self.walk[STRAINS].max() > STRAINED)
 
+    def catch(self, body: Simulation) -> None:
+        """Behind a push: who has been thrown off its learned stand steps as planned, which holds more often
+        to the back and to the sides."""
+        if self.learned is not None and self.learned.stands and _pace(body) > _THROWN:
+            self.learned.give_back(body, self.walk, self.walk_skill.speed)
+
     def vary_step(self, longer: Sequence[float]) -> None:
         """Lengthen the transfer and the swing of the step that has just begun [s]."""
         self.walk[LONGER] = longer
@@ -306,6 +313,7 @@ class OnFeet:
         ready = walk[WALK_STEPS] >= _CHANGED
         if walk[PHASE] == STANDING:  # out of a crouch it straightens up, but the planned walk sets off
             ready = self._upright(body.control) or (ready and not moving)
+            ready = ready and (moving or _pace(body) < _CALM)
         usual = learned.active or ready
         fades = self.residual.acts and walk[PHASE] != STANDING  # what is left in a stand is no more needed
         usual = usual and not self.brakes and not fades and not self.landing.acts
@@ -408,3 +416,8 @@ class OnFeet:
             walk_on(data, index, self._first_steps[0], self.walk_limits.calm, state, self.walk)
         self.slowing = 0.0
         return True
+
+
+def _pace(body: Simulation) -> float:
+    """[m/s] of the centre of mass over the ground."""
+    return math.hypot(*body.control[controller.COM_VELOCITY][:2])

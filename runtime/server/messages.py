@@ -197,7 +197,7 @@ class SetStyle(_Request):
 
 
 class Push(_Request):
-    """Push a simulated person at its chest with a ``force`` [N] for so many ``seconds``."""
+    """Push a simulated person at its waist with a ``force`` [N] for so many ``seconds``."""
 
     type: Literal["push"]
     world: _Name

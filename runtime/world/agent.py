@@ -236,7 +236,7 @@ class Agent:
         return self._driver.odds(obstacle)
 
     def push(self, force: ArrayLike, seconds: float = 0.1) -> None:
-        """Push a person that is simulated: with ``force`` (3,) [N] at its chest, for so many ``seconds`` of
+        """Push a person that is simulated: with ``force`` (3,) [N] at its waist, for so many ``seconds`` of
         the world from now on, 0.01 to 10, instead of what pushes it now. It gives way, takes steps, goes on,
         or falls and gets up. A hard shove is 200 N for 0.1 s. Takes constant time.
 

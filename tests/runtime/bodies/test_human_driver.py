@@ -80,3 +80,23 @@ def test_a_state_of_no_size_is_refused(people, field, wrong):
     with pytest.raises(ValueError, match=r"size of a person|behind its world"):
         driver.restore(driver.save()._replace(**{field: wrong}))
     assert driver.state_hash() == before
+
+
+def test_an_agent_is_pushed_and_a_saved_world_goes_on_alike(graph):
+    world = World(graph, seed=2, rehearsals=0)
+    ada, bob = world.spawn("human", (3.0, 3.0, 0.0)), world.spawn("walker", (6.0, 3.0, 0.0))
+    world.step(0.5)
+    still = ada.position
+    ada.push((0.0, 150.0, 0.0), 0.1)
+    world.step(0.05)
+    twin = World(graph, seed=2, rehearsals=0)
+    twin.restore(world.save())
+    for each in (world, twin):
+        each.step(3.0)
+    assert world.state_hash() == twin.state_hash()
+    assert ada.position[1] - still[1] > 0.05 and ada.status == "standing"
+    with pytest.raises(RuntimeInputError, match="only a human with physics"):
+        bob.push((1.0, 0.0, 0.0))
+    for force, seconds, says in (((1.0, 2.0), 0.1, "three finite"), ((1.0, 0.0, 0.0), 0.0, r"0.01 to 10")):
+        with pytest.raises(RuntimeInputError, match=says):
+            ada.push(force, seconds)

@@ -106,6 +106,20 @@ def test_people_take_postures_hold_things_and_are_seen_from_somewhere(graph):
     talk(graph, conversation)
 
 
+def test_a_person_is_pushed(graph):
+    async def conversation(server, join, port):
+        client = await join()
+        world = (await client.ask("create", level="small", clock="manual"))["world"]
+        await client.ask("spawn", world=world, body="human", at=[2, 3, 0], name="ada")
+        await client.ask("push", world=world, agent="ada", force=[0, 120, 0], seconds=0.2)
+        human = server._worlds.hosted[world].world.agents["ada"].human
+        assert human.data.xfrc_applied.max() == 120.0
+        with pytest.raises(ValueError, match="seconds"):
+            await client.ask("push", world=world, agent="ada", force=[0, 120, 0], seconds=99)
+
+    talk(graph, conversation)
+
+
 def test_a_style_is_worn_and_another_size_is_told(graph):
     async def conversation(server, join, port):
         client = await join()

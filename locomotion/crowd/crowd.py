@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import navmesh
 from locomotion.crowd import layout as at
-from locomotion.crowd.gates import ABREAST, Gates, find_gates
+from locomotion.crowd.gates import ABREAST, Gates, find_gates, foresee_gates
 from locomotion.crowd.queueing import trace_gates
 from locomotion.crowd.tick import advance_all
 from locomotion.crowd.walker import NoRoute, Walker, WalkerState
@@ -311,6 +311,11 @@ class Crowd:
         rows[:, [at.VX, at.VY]] = rows[:, [at.GO_X, at.GO_Y]] = bodies[:, 3:5]
         rows[:, at.RADIUS], rows[:, at.MODE] = bodies[:, 5], at.LED
         rows[:, at.WEIGHT], rows[:, at.CELL] = at.UNMOVED, -1.0
+
+    def foresee(self, graph: navmesh.NodeGraph) -> None:
+        """Find the gates of a ``graph`` that is going to be changed to; may be called in another thread."""
+        if self._widest > 0.0:
+            foresee_gates(graph, ABREAST * self._widest)
 
     def change_graph(self, graph: navmesh.NodeGraph) -> None:
         """Continue on another graph. All bodies keep their place and their route, whether or not it is still

@@ -22,7 +22,7 @@ from navmesh.surface.storeys import linked, over
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["ABREAST", "Gates", "find_gates"]
+__all__ = ["ABREAST", "Gates", "find_gates", "foresee_gates"]
 
 ABREAST = 3.25
 """A passage is a gate for a body if half its width is less than this many of the body's radii."""
@@ -59,7 +59,7 @@ def _cover(c, t, part, row, by, seen, parent, covered):
     return True, covered
 
 
-@allocating_kernel(error_model="numpy")
+@allocating_kernel(error_model="numpy", nogil=True)
 def _paint(net, throats, part, row, parent):
     """Give the cells under the discs of ``throats`` to these, first come first served: ``row`` (cells,) is
     filled in, and the throat of each covered cell is returned. Where discs of two parts overlap, the parts
@@ -94,7 +94,7 @@ def _paint(net, throats, part, row, parent):
     return by[:covered].copy()
 
 
-@allocating_kernel(error_model="numpy")
+@allocating_kernel(error_model="numpy", nogil=True)
 def _passages(net, throats):
     """(t, 2) unit vectors along the passages at ``throats``: across the way to the nearest wall."""
     passage = np.empty((throats.size, 2))
@@ -111,7 +111,7 @@ def _among(throats: NDArray[np.int64], cells: NDArray[np.int64]) -> NDArray[np.i
     return np.where(throats[at] == cells, at, -1)
 
 
-@allocating_kernel(error_model="numpy")
+@allocating_kernel(error_model="numpy", nogil=True)
 def _pairs(net, throats):
     """(k, 2) int64: which of ``throats`` are linked, straight or across a corner, each pair both ways."""
     pairs = np.empty((8 * throats.size, 2), np.int64)
@@ -152,6 +152,20 @@ def _first_by(key: NDArray[Any], group: NDArray[Any]) -> NDArray[np.int64]:
 
 def find_gates(graph: navmesh.NodeGraph, limit: float) -> Gates:
     """The gates of a graph narrower than ``limit`` [m] from the middle to the wall."""
+    foreseen = graph.cache.get("gates", {}).get(_kept_as(graph, limit))
+    return _gates(graph, limit) if foreseen is None else foreseen
+
+
+def foresee_gates(graph: navmesh.NodeGraph, limit: float) -> None:
+    """Find them now; `find_gates` then takes no time, unless zones are turned before."""
+    graph.cache.setdefault("gates", {})[_kept_as(graph, limit)] = find_gates(graph, limit)
+
+
+def _kept_as(graph: navmesh.NodeGraph, limit: float) -> tuple[float, int]:
+    return limit, 0 if graph.zone_state is None else graph.zone_state.changes
+
+
+def _gates(graph: navmesh.NodeGraph, limit: float) -> Gates:
     surface, net, throats = graph.surface, net_of(graph), throats_of(graph, limit)
     row = np.full(len(surface), -1, np.int32)
     if len(throats) == 0:

@@ -65,7 +65,7 @@ def _cosine(net, ax, ay, a, bx, by, b):
     return ax / near * (bx / other) + ay / near * (by / other)
 
 
-@kernel(error_model="numpy")
+@kernel(error_model="numpy", nogil=True)
 def _mark(net, limit, first, last, found):
     """Mark in ``found`` (cells,) bool the throats narrower than ``limit`` [m] from the middle to the wall
     among the cells ``first`` to ``last`` and those beside them in +x and +y."""
@@ -88,7 +88,7 @@ def _mark(net, limit, first, last, found):
                 found[c] = found[n] = True
 
 
-@kernel(error_model="numpy")
+@kernel(error_model="numpy", nogil=True)
 def _mark_windows(net, limit, windows, found):
     """Mark all throats in ``windows`` (w, 4) of columns and in those beside them."""
     for w in range(windows.shape[0]):
@@ -98,7 +98,7 @@ def _mark_windows(net, limit, windows, found):
             _mark(net, limit, first, last, found)
 
 
-@kernel(error_model="numpy")
+@kernel(error_model="numpy", nogil=True)
 def _carry(net, windows, before, old_column_start, old_milestone, found):
     """Mark the throats of ``before`` (t,) that do not lie in ``windows`` or just beside them."""
     for t in range(before.shape[0]):

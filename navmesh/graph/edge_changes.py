@@ -55,7 +55,7 @@ def _pairs_in(
     return key, where[pair], clearance
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _merge(
     start, target, width, gate, cells, number, gone,
     new_start, new_target, new_width, new_gate, new_cells,

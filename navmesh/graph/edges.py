@@ -20,7 +20,7 @@ _FINE = 0.002
 """[m] of a passage's half width that are not worth another look."""
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def border_pairs(label, field):
     """The pairs of linked cells with different labels: for each a key, the lesser label in the upper half
     (k,) int64, the cells (k, 2) int32, that of the lesser label first, and the lesser clearance (k,)."""
@@ -52,7 +52,7 @@ def border_pairs(label, field):
     return key, pair, width
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _by_ends(key, nodes):
     """The border pairs by rising key, those of one key in their order: (k,) int32. Sorted by counting, first
     by the greater end and then by the lesser."""
@@ -122,7 +122,7 @@ def _measure(order, key, pair, width, place, field):
     return ends, widest, gate, border
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def rows_of_edges(nodes, ends, widest, gate, border):
     """`join_nodes`' arrays from those of edges (e, 2), sorted by the lesser and then by the greater end."""
     start = np.zeros(nodes + 1, np.int32)

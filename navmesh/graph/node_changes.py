@@ -204,7 +204,7 @@ def boxes_of(place: np.ndarray, side: float) -> np.ndarray:
     return np.column_stack([low, high])
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _near(place, side, area):
     """(k,) int64: the discs whose `boxes_of` touch ``area``."""
     found = np.empty(place.shape[0], np.int64)
@@ -229,7 +229,7 @@ def hull(area: np.ndarray, boxes: np.ndarray, beyond: int, surface: Surface) -> 
     return np.concatenate([np.maximum(low, 0), np.minimum(high, surface.shape)])
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _places_among(makers, others, clearance, grain):
     """How many of ``makers``, cells in the order of their turns, have it before each of ``others``, which are
     in that order, too: (k,) int64."""
@@ -249,7 +249,7 @@ def _places_among(makers, others, clearance, grain):
     return place
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _where_labels_change(old_start, start, old_label, label, number, area, changed, ny):
     """The window of the columns of ``area``, and not of ``changed``, whose cells have other labels: (1, 4)
     int64, or (0, 4)."""
@@ -267,7 +267,7 @@ def _where_labels_change(old_start, start, old_label, label, number, area, chang
     return found if found[0, 2] >= 0 else found[:0]
 
 
-@kernel
+@kernel(nogil=True)
 def _renumber(old_label, number, runs, label):
     """Fill in the labels of what lies in runs of before: ``number[was + 1]``."""
     for row in range(0, runs.shape[0], 2):

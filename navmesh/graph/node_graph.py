@@ -11,6 +11,7 @@ import numpy as np
 from navmesh.errors import NavmeshError
 from navmesh.graph import spatial_queries as queries
 from navmesh.graph.carrying import carry_over
+from navmesh.graph.first_queries import prepare_like
 from navmesh.graph.graph_file import read_graph, write_graph
 from navmesh.graph.kept_build import Built, KeptBuild, all_rim_samples, build_whole, grid_for, renewed
 from navmesh.graph.links import Links, make_links
@@ -161,6 +162,12 @@ class NodeGraph:
                 carry_over(self, graph, moved)
             return graph
         return rebuilt(graph, self.zone_state.outlines, self.zones)
+
+    def prepare_like(self, other: "NodeGraph") -> None:
+        """Work out now what the first queries on this graph would, for the bodies and skills that the
+        ``other`` graph was asked for last, such as the one that this is an `update` of. It can be called in a
+        thread while others ask on the other graph. Answers are the same with and without."""
+        prepare_like(self, other)
 
     def with_zones(self, outlines: Mapping[str, Any]) -> "NodeGraph":
         """This graph with zones, parts of the floor that can be blocked and opened at once, such as doorways.

@@ -24,7 +24,7 @@ def all_nodes(surface: Surface, least: float) -> tuple[np.ndarray, ...]:
     return select_nodes(order, surface.field, surface.field, none, least, none, np.empty((0, 3)))
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def order_by_clearance(clearance, grain):
     """The cells by falling clearance in steps of ``grain`` [m], then by rising index: (n,) int32."""
     cells = clearance.shape[0]
@@ -93,7 +93,7 @@ def disc_at(field, c):
     return np.int64(c), x, y, field.clearance[c]
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def select_nodes(order, field, whole, where, least, given_cell, given_place):
     """Greedy cover by maximal discs, (almost) largest first.
 

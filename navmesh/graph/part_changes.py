@@ -39,7 +39,7 @@ def tiles_for(graph: "NodeGraph", part: np.ndarray, radius: float) -> tuple[np.n
     return parts_of_tiles(net, part, radius, KeptTiles(kept, start, now, span))
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _heirs(part_before, part, number):
     """What each part of before is now, -1 where it is gone: (p,) int32; and the nodes that were in it and are
     in another part (k,) int32."""

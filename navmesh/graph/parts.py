@@ -17,7 +17,7 @@ TILE = 16
 """Columns a side of the tiles by which far places are looked for."""
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def parts_of_nodes(start, target):
     """The part of each node over the doors in CSR form, those to -1 left out: (m,) int32, numbered by their
     first nodes."""
@@ -69,7 +69,7 @@ def parts_of_tiles(
     return _parts_of_tiles(net, part, radius, known)
 
 
-@allocating_kernel(error_model="numpy")
+@allocating_kernel(error_model="numpy", nogil=True)
 def _parts_of_tiles(net, part, radius, known):
     across, along = (net.nx + TILE - 1) // TILE, (net.ny + TILE - 1) // TILE
     least, half = radius - 0.7072 * net.cell, 0.5 * net.cell

@@ -96,7 +96,7 @@ _SHUT, _FRESH = -1, -2
 out."""
 
 
-@allocating_kernel(error_model="numpy")
+@allocating_kernel(error_model="numpy", nogil=True)
 def _rows_before(net, edge_width, edge_cells, edge_gate, radius, number, windows, old_start, old_target):
     """Where the portals of each node begin (m + 1,) int32; and for each portal the row that it had before,
     or -1 - e where that of edge e has to be worked out: (p,) int32."""
@@ -146,7 +146,7 @@ def _rows_before(net, edge_width, edge_cells, edge_gate, radius, number, windows
     return start, row[:count]
 
 
-@allocating_kernel(error_model="numpy")
+@allocating_kernel(error_model="numpy", nogil=True)
 def _fill(
     net, edge_cells, edge_gate, radius, number, windows, old_column_start, old_milestone,
     start, row, old_words, old_target, old_portal, old_cells, old_lens, old_block,

@@ -171,7 +171,7 @@ def fill_portal(net, i, j, pair, gate, radius, at, portal, cells, lens, block):
         block[at, 2 * side + 1] = qy if near else np.inf
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def open_portals(net, edge_width, edge_cells, edge_gate, radius):
     """The portals for a body of ``radius`` [m].
 

@@ -2,7 +2,7 @@
 
 import bisect
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from numbers import Real
 
 import numpy as np
@@ -11,7 +11,7 @@ from navmesh.errors import NavmeshError
 from navmesh.level.solids import closed_parts
 from navmesh.level.terrain import Chunk, Terrain, coded_materials
 
-__all__ = ["change_chunks", "chunks_by_square", "chunks_of", "join_chunks", "split_terrain"]
+__all__ = ["change_chunks", "check_changes", "chunks_by_square", "chunks_of", "join_chunks", "split_terrain"]
 
 
 def _check_name(name: object) -> None:
@@ -78,6 +78,30 @@ def chunks_by_square(terrain: Terrain, square: np.ndarray) -> dict[str, Terrain]
     return found
 
 
+def check_changes(names: Collection[str], changes: Mapping[str, Terrain | None], level: str) -> list[str]:
+    """The names, rising, of the chunks that there are after ``changes`` to a ``level`` with chunks of these
+    ``names``. Raises `NavmeshError` for the removal of a chunk that is not there, and when none is left."""
+    if not isinstance(changes, Mapping):
+        raise NavmeshError(f"changes: expected chunks by name, as in {{'hall': terrain}}, not {changes!r}")
+    after = set(names)
+    for name, chunk in changes.items():
+        _check_name(name)
+        if not (chunk is None or isinstance(chunk, Terrain)):
+            raise NavmeshError(
+                f"chunk {name!r} is a {type(chunk).__name__}; expected a Terrain, or None to remove it"
+            )
+        if chunk is not None:
+            after.add(name)
+        elif name in after:
+            after.remove(name)
+        else:
+            known = ", ".join(sorted(names)[:20]) or "none"
+            raise NavmeshError(f"there is no chunk {name!r} to remove; there are {known}")
+    if not after:
+        raise NavmeshError(f"{level}: the change removes all chunks; a level needs at least one")
+    return sorted(after)
+
+
 def change_chunks(
     terrain: Terrain, changes: Mapping[str, Terrain | None]
 ) -> tuple[Terrain, list[np.ndarray]]:
@@ -86,15 +110,8 @@ def change_chunks(
     Returns it and, for each chunk that is another than before, the bounds (2, 3) [m] of what it was and is.
     Raises `NavmeshError` for the removal of a chunk that is not there, and when none is left.
     """
-    if not isinstance(changes, Mapping):
-        raise NavmeshError(f"changes: expected chunks by name, as in {{'hall': terrain}}, not {changes!r}")
-    for name, chunk in changes.items():
-        _check_name(name)
-        if not (chunk is None or isinstance(chunk, Terrain)):
-            raise NavmeshError(
-                f"chunk {name!r} is a {type(chunk).__name__}; expected a Terrain, or None to remove it"
-            )
     names = [chunk.name for chunk in terrain.chunks]
+    check_changes(names, changes, terrain.name)
     corner = np.concatenate(([0], np.cumsum([chunk.vertices for chunk in terrain.chunks])))
     face = np.concatenate(([0], np.cumsum([chunk.faces for chunk in terrain.chunks])))
     vertices, faces, solid, chunks, changed = [], [], [], [], []
@@ -131,10 +148,6 @@ def change_chunks(
                 continue
             after = at + 1
             bounds.append(_bounds(old))
-        elif new is None:
-            raise NavmeshError(
-                f"there is no chunk {name!r} to remove; there are {', '.join(names[:20]) or 'none'}"
-            )
         if new is not None:
             vertices.append(new.vertices)
             faces.append(new.faces + np.int32(count))
@@ -147,8 +160,6 @@ def change_chunks(
             bounds.append(_bounds(new.vertices))
         changed.append(np.stack([np.min(bounds, axis=0)[0], np.max(bounds, axis=0)[1]]))
     keep(len(names))
-    if not chunks:
-        raise NavmeshError(f"{terrain.name}: the change removes all chunks; a level needs at least one")
     if not changed:
         return terrain, []
     after_all = Terrain(

@@ -31,7 +31,7 @@ from navmesh.zones.plain import plain_graph
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
 
-__all__ = ["PathSearch", "find_path", "find_paths"]
+__all__ = ["PathSearch", "find_path", "find_paths", "keep_scratch"]
 
 _STATUSES = np.array(STATUSES)
 
@@ -53,6 +53,12 @@ def _scratch_for(graph: "NodeGraph") -> Any:
             return make_scratch(graph)
         if scratch.slots == slots:
             return scratch
+
+
+def keep_scratch(graph: "NodeGraph") -> None:
+    """Have memory for a search in stock."""
+    scratch = _scratch_for(graph)
+    graph.cache["scratch"].append(scratch)
 
 
 @cache

@@ -105,9 +105,9 @@ class OpenWorld:
 
         Returns what was changed, as `NodeGraph.update` takes it: by name the mesh of a chunk that was loaded,
         None for one that was dropped; empty when nothing is left to do. Takes the time of reading a chunk and
-        of `NodeGraph.update` for each: tens to hundreds of milliseconds, so call it in a thread of its own
-        (one at a time), while others ask for routes on what was loaded before. Raises `ArchiveError` for a
-        chunk's file that is missing or damaged; what is loaded is then as it was.
+        of `NodeGraph.update` and `NodeGraph.prepare_like` for each: tens to hundreds of milliseconds, so call
+        it in a thread of its own (one at a time), while others ask for routes on what was loaded before.
+        Raises `ArchiveError` for a chunk's file that is missing or damaged; what is loaded is then as it was.
         """
         return self.change(self.next_changes(points, changes))
 
@@ -155,7 +155,10 @@ class OpenWorld:
         if not loaded.any():
             return None
         if window.graph is not None:
-            return _or_none(lambda graph=window.graph: graph.update(changes))
+            graph = _or_none(lambda graph=window.graph: graph.update(changes))
+            if graph is not None:
+                graph.prepare_like(window.graph)  # lest the first query after it has to
+            return graph
         meshes = {
             index.names[k]: changes.get(index.names[k]) or read_chunk(self._folder, index, int(k))
             for k in np.flatnonzero(loaded)

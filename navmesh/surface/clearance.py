@@ -41,7 +41,7 @@ def _over(column_start, storey, c, way, column):
     return np.int64(column_start[column]) + storey[c, way] if storey[c, way] != APART else np.int64(-1)
 
 
-@kernel
+@kernel(nogil=True)
 def sweep(
     turn, column_start, cell_column, storey, nearest, squared, source, choice, resolution, nx, ny,
     fixed, known, known_source,
@@ -150,7 +150,7 @@ def settle_clearance(field, first, last):
             field.clearance[c] = min(field.clearance[c], gap_at(field, c, x, y)[0])
 
 
-@kernel
+@kernel(nogil=True)
 def settle_window(field, column_start, window):
     """`settle_clearance` of the cells in the columns of ``window``."""
     for ix in range(window[0], window[2]):

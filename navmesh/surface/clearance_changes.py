@@ -156,7 +156,7 @@ def _inside(patch, column, window):
     return window[0] <= ix + patch.left < window[2] and window[1] <= iy + patch.near < window[3]
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _swept(
     column_start, cell_column, storey, list_cell, list_start, blocker,
     patch, old, whole, first, inner, window, guarded,
@@ -211,7 +211,7 @@ def _lists_by_cell(list_cell, cells):
     return listed
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _differences(
     was_start, was_list, was_known, was_source, start, list_cell, known, source,
     patch, inner, window, guarded,

@@ -42,7 +42,7 @@ def _bits(cells: Cells, window: Window, ny: int) -> tuple[np.ndarray, ...]:
     )  # fmt: skip
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _alike(
     start, storey, floor, list_cell, list_start, blocker,
     to_start, to_storey, to_floor, to_list_cell, to_list_start, to_blocker,

@@ -125,7 +125,7 @@ def _inside_of(columns, window, ny):
     return inside
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _moved_all(cells, old_start, old_milestone, start, low, high, shift):
     moved = np.empty(cells.shape[0], np.int32)
     for k in range(cells.shape[0]):
@@ -153,7 +153,7 @@ def _lists_in_whole(part, whole, runs):
     return number
 
 
-@kernel
+@kernel(nogil=True)
 def _splice_values(
     old_list_cell, old_clearance, old_source, old_choice, moves,
     new_nearest, new_source, new_choice, number, runs, clearance, source, choice,

@@ -112,7 +112,7 @@ def runs_around(old_start, new_start, window, patch, ny, runs):
     return at + old_start[-1] - done
 
 
-@kernel
+@kernel(nogil=True)
 def _columns(old_start, new_start, window, patch, ny, runs, start):
     """Fill in ``column_start`` of the whole."""
     column = 0  # of the whole, up to which all is filled in
@@ -131,7 +131,7 @@ def _columns(old_start, new_start, window, patch, ny, runs, start):
         column = end
 
 
-@kernel
+@kernel(nogil=True)
 def _fill(
     old_storey, old_cell, old_start, old_blocker, new_storey, new_cell, new_start, new_blocker,
     runs, lists, storey, list_cell, list_start, blocker,

@@ -12,6 +12,7 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
+import navmesh
 from locomotion import Ground
 from locomotion.avoidance.yielding import Course
 from locomotion.body_events import Event
@@ -357,6 +358,10 @@ class Population(ABC):
 
     def remember(self) -> None:  # noqa: B027  those that are drawn as they are
         """Keep where all are, for `Driver.transforms_between`."""
+
+    def foresee(self, graph: navmesh.NodeGraph) -> None:  # noqa: B027
+        """Work out what going on on another ``graph`` takes and does not depend on where bodies are. It is
+        called in another thread, before the level changes."""
 
     @abstractmethod
     def change_level(self) -> None:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+import navmesh
 from locomotion import PERSON_RULES, Ground, LocomotionError
 from locomotion.body.traits import SIZE, TRAITS, by_hand
 from locomotion.crowd.saved_state_check import check_walker
@@ -82,6 +83,10 @@ class Recorded(Population):
         if not self._people:
             return np.empty((0, 6))
         return self._people.discs()
+
+    def foresee(self, graph: navmesh.NodeGraph) -> None:
+        if self._people is not None:
+            self._people.crowd.foresee(graph)
 
     def change_level(self) -> None:
         if self._people is not None:

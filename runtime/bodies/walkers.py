@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+import navmesh
 from locomotion import LocomotionError, ObstacleAhead
 from locomotion.body_events import Event
 from locomotion.crowd import Crowd, NoRoute, Walker, WalkerState
@@ -94,6 +95,9 @@ class Walkers(Population):
         half = 0.5 * self.crowd.yaws
         zero = np.zeros_like(half)
         return np.column_stack([self.crowd.positions, np.cos(half), zero, zero, np.sin(half)])
+
+    def foresee(self, graph: navmesh.NodeGraph) -> None:
+        self.crowd.foresee(graph)
 
     def change_level(self) -> None:
         self.crowd.change_graph(self._level.graph)

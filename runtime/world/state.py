@@ -12,6 +12,7 @@ from locomotion.body.person import CONTROL_DT
 from runtime.errors import RuntimeInputError
 from runtime.events import Event
 from runtime.world.agent_state import AgentState
+from runtime.world.level_changes import ComingChange
 from runtime.world.level_of_detail import Budget, Viewer
 from runtime.world.state_file import DTYPES, pack, unpack
 from runtime.world.streaming import StreamingState
@@ -45,6 +46,8 @@ class WorldState:
     """Zones of the level's graph that are blocked, in the order of their names."""
     streaming: StreamingState | None = None
     """What of an open world is loaded; None for another level."""
+    coming: tuple[ComingChange, ...] = ()
+    """Changes of the level that are being worked out, in the order in which they were asked for."""
 
     def __repr__(self) -> str:
         return f"<WorldState after {self.ticks} ticks: {several(len(self.agents), 'agent')}>"

@@ -4,8 +4,7 @@ Every half second of simulated time the next chunks are chosen by where players 
 second later they are there. Both are counted in ticks, so a run does not depend on how long the work takes.
 """
 
-from collections.abc import Mapping
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Callable, Mapping
 from copy import copy
 from dataclasses import dataclass
 
@@ -16,6 +15,7 @@ from runtime.errors import RuntimeInputError
 from runtime.planning.level import Level
 from runtime.world.agent import Agent
 from runtime.world.arguments import checked_points
+from runtime.world.upcoming import Upcoming
 
 __all__ = ["CHANGES", "EVERY", "Player", "Streaming", "StreamingState", "checked_players"]
 
@@ -28,6 +28,7 @@ _SPACING = 5.0  # [m]
 
 Player = str | tuple[float, float, float]
 """An agent's name, or a place [m]."""
+_Loaded = tuple[navmesh.OpenWorld, Level | None]
 
 
 @dataclass(frozen=True)
@@ -43,17 +44,18 @@ class StreamingState:
 class Streaming:
     """What a world has of ``world``: a copy, so that several worlds can be made of one.
 
-    With more than one of ``threads`` the next chunks are worked out in one of their own; else when it is
-    their turn. The run is the same. Attributes: world: the open world as it is loaded now. players: around
-    whom chunks are kept.
+    The next chunks are worked out in a thread of their own. ``level_of(graph)``: the level of a graph, asked
+    for there. Attributes: world: the open world as it is loaded now. players: around whom chunks are kept.
     """
 
-    def __init__(self, world: navmesh.OpenWorld, threads: int = 1) -> None:
+    def __init__(
+        self, world: navmesh.OpenWorld, level_of: Callable[[navmesh.NodeGraph], Level] = Level.of
+    ) -> None:
         self.world = copy(world)
         self.players: tuple[Player, ...] = ()
         self._changed: tuple[str, ...] = ()
-        self._work: Future[tuple[navmesh.OpenWorld, Level | None]] | None = None
-        self._pool = ThreadPoolExecutor(1) if threads > 1 else None
+        self._level_of = level_of
+        self._upcoming: Upcoming[_Loaded, tuple[str, ...]] = Upcoming(self._made)
 
     def level(self) -> Level:
         """The level that is loaded. Raises `RuntimeInputError` if nobody can stand anywhere."""
@@ -90,7 +92,7 @@ class Streaming:
             return None, {}
         self._drop()
         self.world = later
-        return Level.of(later.graph), found
+        return self._level_of(later.graph), found
 
     def forget(self, name: str) -> None:
         """An agent is not here any more."""
@@ -110,7 +112,7 @@ class Streaming:
         if not loaded | changed <= set(self.world.chunks):
             raise RuntimeInputError("the state has chunks that this open world does not have")
         names = tuple(sorted(loaded ^ set(self.world.loaded)))
-        later, level = self._made(names) if names else (self.world, None)
+        later, level = self._made((self.world, None), names) if names else (self.world, None)
         if names and level is None:
             raise RuntimeInputError("nobody can stand anywhere on the chunks of the state")
         self._drop()
@@ -118,29 +120,29 @@ class Streaming:
         self._begin(state.changed)
         return level
 
-    def _made(self, names: tuple[str, ...]) -> tuple[navmesh.OpenWorld, Level | None]:
+    def _made(self, before: _Loaded, names: tuple[str, ...]) -> _Loaded:
         """The world after a change of chunks; no level where nobody could stand anywhere then."""
-        later = copy(self.world)
+        later = copy(before[0])
         later.change(names)
-        return later, None if later.graph is None else Level.of(later.graph)
+        return later, None if later.graph is None else self._level_of(later.graph)
 
     def _begin(self, names: tuple[str, ...]) -> None:
         self._changed = names
-        if names and self._pool is not None:
-            self._work = self._pool.submit(self._made, names)
+        if names:
+            self._upcoming.begin((self.world, None), names)
 
     def _end(self) -> Level | None:
-        names, work = self._changed, self._work
-        self._drop()
-        if not names:
+        if not self._changed:
             return None
-        later, level = self._made(names) if work is None else work.result()
+        self._changed = ()
+        later, level = self._upcoming.end()
         if level is not None:
             self.world = later
         return level
 
     def _drop(self) -> None:
-        self._changed, self._work = (), None
+        self._changed = ()
+        self._upcoming.drop()
 
 
 def checked_players(players: object, agents: Mapping[str, Agent]) -> tuple[Player, ...]:

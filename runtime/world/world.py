@@ -34,6 +34,7 @@ from runtime.world.agent_services import Clock, Host
 from runtime.world.agent_state import AgentState
 from runtime.world.arguments import checked_files, checked_number, checked_points, checked_whole
 from runtime.world.event_log import EventLog
+from runtime.world.level_changes import LevelChanges
 from runtime.world.level_of_detail import AUTO, LEVELS, PHYSICS, Budget, Viewer, checked_detail, levels_for
 from runtime.world.level_of_detail import EVERY as LOOKS
 from runtime.world.sizes import Sizes
@@ -137,7 +138,7 @@ class World:
                 raise RuntimeInputError(str(error)) from None
         self._streaming: Streaming | None = None
         if isinstance(terrain, navmesh.OpenWorld):
-            self._streaming = Streaming(terrain, checked_whole(threads, "threads", least=1))
+            self._streaming = Streaming(terrain, self._foreseen)
             graph = self._streaming.level().graph
         elif isinstance(terrain, navmesh.NodeGraph):
             graph = copy(terrain) if terrain.zones else terrain  # its doors are its own
@@ -151,6 +152,7 @@ class World:
         self.agents: dict[str, Agent] = {}
         self.random = np.random.default_rng(seed)
         self._level = Level.of(graph)
+        self._changes = LevelChanges(self._changed)
         self._populations = Populations()
         self._traffic = Traffic(self._level, self._populations)
         around = Surroundings(
@@ -451,16 +453,24 @@ class World:
         self._forget_order()
         agent.leave()
 
-    def change_level(self, changes: Mapping[str, navmesh.Terrain | None]) -> None:
+    def change_level(self, changes: Mapping[str, navmesh.Terrain | None], within: float = 0.0) -> None:
         """Change the level's chunks, between two ticks: by name, a `navmesh.Terrain` to be added or to
-        replace the one of that name, None to remove it; see `navmesh.NodeGraph.update`. Takes load time.
+        replace the one of that name, None to remove it; see `navmesh.NodeGraph.update`.
+
+        Takes load time; or, with ``within`` [s] of simulated time, constant time: the change is then worked
+        out in a thread while the world goes on, and comes before the last tick of that time, for which `step`
+        waits if need be. So a run is the same on any machine. Changes come in the order in which they were
+        asked for: those before this one come with it at the latest. Zones can be blocked and opened
+        meanwhile, and `save` keeps changes that are still to come.
 
         Nobody is moved. Agents whose route is still valid keep walking; the others look for another route to
         the same goals, and stop, with `Blocked`, where there is none. If its ground is removed, a quadruped
         stops and a walker stays where it is (both with `Lost`), and a person falls. Raises
         `navmesh.NavmeshError` for the removal of a chunk that is not there and when nothing walkable is left,
-        `RuntimeInputError` for what is no mapping, and in an open world, which changes by `keep_around` and
-        `players`; the world is then as it was.
+        `RuntimeInputError` for what is no mapping or no time, and in an open world, which changes by
+        `keep_around` and `players`; the world is then as it was. What only turns out when the change is
+        worked out, such as that nothing walkable is left, `step` raises before the tick for which it is due;
+        that change is dropped, and the world can be stepped on.
         """
         if self._streaming is not None:
             raise RuntimeInputError(
@@ -468,13 +478,45 @@ class World:
             )
         if not isinstance(changes, Mapping):
             raise RuntimeInputError(f"changes are a {type(changes).__name__}; give {{chunk's name: Terrain}}")
-        graph = self.graph.update(changes)
-        if graph is self.graph:
+        within = checked_number(within, "within", "s", 0.0)
+        if within > 0.0:
+            due = self._clock.ticks + max(math.ceil(within / CONTROL_DT - 1e-6), 1) - 1
+            self._changes.begin(self._level, changes, due)
             return
-        self._go_on_on(Level.of(graph))
+        self._changes.check(self._level, changes)
+        self._take_changes(math.inf)
+        self._go_on_on(self._changed(self._level, changes))
+
+    def _changed(self, level: Level, changes: Mapping[str, navmesh.Terrain | None]) -> Level:
+        """The ``level`` after ``changes``, worked out in any thread."""
+        graph = level.graph.update(changes)
+        if graph is level.graph:
+            return level
+        graph.prepare_like(level.graph)
+        return self._foreseen(graph)
+
+    def _foreseen(self, graph: navmesh.NodeGraph) -> Level:
+        """The level of another ``graph``, with what those who will go on on it can work out in any thread."""
+        for population in self._populations:
+            population.foresee(graph)
+        return Level.of(graph)
+
+    def _take_changes(self, tick: float) -> None:
+        """Go on on the level as it is after all changes that are to come before a ``tick``."""
+        level = self._level
+        try:
+            while self._changes.due(tick):
+                level = self._changes.end()
+        finally:
+            self._go_on_on(level)
 
     def _go_on_on(self, level: Level) -> None:
-        """Let all go on on another level."""
+        """Let all go on on a level, if it is another."""
+        if level.graph is self.graph:
+            return
+        zones = self.graph.zones  # those of the other are as they were when its work began
+        for name in [name for name, blocked in level.graph.zones.items() if blocked != zones[name]]:
+            (level.graph.block if zones[name] else level.graph.open)(name)
         self._level.graph, self._level.ground = level.graph, level.ground
         for population in self._populations:
             population.change_level()
@@ -568,6 +610,8 @@ class World:
                 if made == due:
                     for population in self._populations:
                         population.remember()
+                if self._changes.due(clock.ticks):
+                    self._take_changes(clock.ticks)
                 if self._streaming is not None and clock.ticks % CHANGES_CHUNKS == 0:
                     level = self._streaming.turn(self.agents)
                     if level is not None:
@@ -616,6 +660,8 @@ class World:
             checksum.update(repr(self._blocked).encode())
         if self._streaming is not None:
             checksum.update(repr(self._streaming.save()).encode())
+        if coming := self._changes.digest():
+            checksum.update(repr(coming).encode())
         order = _by_arrival(self.agents)
         if order != list(self.agents):
             checksum.update(repr(order).encode())
@@ -653,6 +699,7 @@ class World:
             budget=self._budget,
             blocked=self._blocked,
             streaming=None if self._streaming is None else self._streaming.save(),
+            coming=self._changes.save(),
         )
 
     def restore(self, state: WorldState) -> None:
@@ -714,6 +761,7 @@ class World:
             pause()
         self.random.bit_generator.state = dict(state.random)
         self._clock.ticks, self._clock.owed = state.ticks, state.owed
+        self._changes.load(self._level, state.coming, state.ticks)
         self._asked = None
         self._forget_order()
         self._log.become(state.events, state.untold)

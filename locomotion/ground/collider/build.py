@@ -154,7 +154,7 @@ def _edges(corners: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.in
     return np.append(np.flatnonzero(new), len(order)).astype(np.int64), order.astype(np.int64)
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _edge_cones(edge_start, edge_sides, rows, flags, bisectors):
     """Cone of free directions at each edge, from the side planes of its faces; marks the exposed ones."""
     for e in range(len(edge_start) - 1):
@@ -207,7 +207,7 @@ def _vertex_edges(
     return start, np.ascontiguousarray(along)
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _exposed_corners(vertex_start, vertex_edges, bisectors, flags):
     """Mark each vertex that sticks out, once, at its first triangle."""
     seen = np.zeros(len(vertex_start) - 1, np.bool_)
@@ -243,7 +243,7 @@ def _grid(rows: NDArray[np.float64], flags: NDArray[np.int32]):
     return start, triangles, span, np.array([low[0], low[1], 1.0 / cell, 0.0]), shape
 
 
-@allocating_kernel
+@allocating_kernel(nogil=True)
 def _fill_grid(first, last, rows, nx, ny):
     start = np.zeros(nx * ny + 1, np.int32)
     span = np.empty((nx * ny, 2))
@@ -277,7 +277,7 @@ def share_corner(flags, s, t):
     return False
 
 
-@kernel
+@kernel(nogil=True)
 def _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape):
     """How deep a body may be behind each face: at most half the thickness of the wall there.
 
@@ -304,7 +304,7 @@ def _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape):
         rows[t, DEPTH_LIMIT] = max(0.5 * thickness, DEPTH_FLOOR)
 
 
-@kernel
+@kernel(nogil=True)
 def _edge_depth_limits(edge_start, edge_sides, rows):
     """How deep an axis may be behind each edge: as behind the thinner of its two faces. At the border of a
     sheet there is no inside, and where more faces meet none is told."""

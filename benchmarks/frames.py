@@ -2,6 +2,7 @@
 
     python -m benchmarks.frames [--people 1 10 40] [--dogs 4] [--walkers 20] [--seconds 60] [--seed 1]
                                 [--level FILE] [--speed 3] [--rehearsal-ticks 20]
+    python -m benchmarks.frames --changes 8 --level "city 8" --people 0 --dogs 0 [--within 0.5]
 
 People, dogs and walkers get new goals all over a level, are told to stop, and go over to recorded motion and
 back, all drawn by the seed. A frame is `World.step(1 / 60)`. Printed for each number of people are the mean,
@@ -9,6 +10,12 @@ median, 99th percentile and longest of the frames after the first second and of 
 that compiled meanwhile; and the ratio of all frames to bare physics: `mj_step` of the simulated people from
 the states they were in, sampled during the play and timed in the same run. The ratio is of processor times,
 so that it hardly depends on what else runs on the machine.
+
+With ``--changes``, so many times a chunk of 10 m of a level of `benchmarks.large_levels` is taken out and put
+back: at once, then within so many seconds of the world's time, by turns. Printed is the longest frame from
+the call until 0.2 s after the change (the call counts as part of its frame), and the longest of as many
+frames without any: median and worst of all, by the clock and by processor time of the world's own thread.
+Frames come 60 times a second, as in a game.
 """
 
 import argparse
@@ -19,9 +26,11 @@ import mujoco
 import numpy as np
 
 import navmesh
+from benchmarks.large_levels import LARGE_LEVELS, large_level
 from locomotion import Human
 from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
 from locomotion.rehearsal.sharing import REHEARSAL_TICKS
+from navmesh.level.chunks import chunks_of, join_chunks, split_terrain
 from runtime import RuntimeInputError, World
 from runtime.world.agent import Agent
 from surefoot.compile_notice import counted
@@ -32,6 +41,8 @@ _STOPS = 0.02  # [1/s]
 _LEVELS = 0.02  # [1/s] of people, to recorded motion or back
 _ROOMY = 0.45  # [m] radius of the discs that goals are in
 _BEGIN = 1.0  # [s] that do not count
+_AFTER = 0.2  # [s] after a change that count as around it
+_CHUNK = 10.0  # [m]
 _SAMPLES = 0.25  # [s] between states whose bare physics is timed
 
 
@@ -46,6 +57,16 @@ class Times:
     spent: float = 0.0
     bare: float = 0.0
     compiled: int = 0
+
+
+@dataclass
+class Around:
+    """The longest frames [s] around changes of the level, by the clock and by processor time of the world's
+    thread: of changes ``at_once``, of those ``within`` some time, and ``without`` any."""
+
+    at_once: list[tuple[float, float]] = field(default_factory=list)
+    within: list[tuple[float, float]] = field(default_factory=list)
+    without: list[tuple[float, float]] = field(default_factory=list)
 
 
 class Play:
@@ -99,6 +120,39 @@ class Play:
                         self._time_bare(self.world.time - max(due - _SAMPLES, _BEGIN))
                         due = self.world.time + _SAMPLES
 
+    def change(self, chunks: dict[str, navmesh.Terrain], times: int, within: float) -> Around:
+        """Take chunks out and put them back, so many times each way and of each kind, and measure."""
+        around, names = Around(), sorted(chunks)
+        self.go_on(_BEGIN)
+        for turn in range(-1, times):
+            for found, limit in ((around.at_once, 0.0), (around.within, within)):
+                name = names[self._rng.integers(len(names))]
+                for mesh in (None, chunks[name]):
+                    without = self._longest(None, limit)
+                    changed = self._longest({name: mesh}, limit)
+                    if turn >= 0:  # the first pays for compiling
+                        around.without.append(without)
+                        found.append(changed)
+        return around
+
+    def _longest(
+        self, changes: dict[str, navmesh.Terrain | None] | None, within: float
+    ) -> tuple[float, float]:
+        """The longest frame [s] from a call for ``changes``, if any, until some time after it; see
+        `Around`."""
+        frames = []
+        for number in range(round((within + _AFTER) / FRAME)):
+            self._tell()
+            begun, spent = time.perf_counter(), time.thread_time()
+            if changes and number == 0:
+                self.world.change_level(changes, within)
+            self.world.step(FRAME)
+            passed, spent = time.perf_counter() - begun, time.thread_time() - spent
+            frames.append((passed, spent))
+            time.sleep(max(FRAME - passed, 0.0))
+        passed, spent = np.array(frames).max(axis=0).tolist()
+        return passed, spent
+
     def _tell(self) -> None:
         for agent in self.world.agents.values():
             chance = float(self._rng.random()) / FRAME
@@ -151,6 +205,15 @@ def told(name: str, seconds: list[float]) -> str:
     )
 
 
+def told_around(name: str, longest: list[tuple[float, float]]) -> str:
+    """Median and worst of the longest frames, by the clock and by processor time."""
+    median, worst = 1000.0 * np.median(longest, axis=0), 1000.0 * np.max(longest, axis=0)
+    return (
+        f"{name:24} longest frame, median {median[0]:6.1f}, worst {worst[0]:6.1f} ms; of processor time "
+        f"{median[1]:6.1f}, {worst[1]:6.1f} ms ({len(longest)} times)"
+    )
+
+
 def measured(
     graph: navmesh.NodeGraph,
     counts: dict[str, int],
@@ -177,10 +240,25 @@ def main() -> None:
     parser.add_argument("--rehearsal-ticks", type=int, default=REHEARSAL_TICKS, help="as of World")
     parser.add_argument("--level", default="examples/levels/courtyard.obj")
     parser.add_argument("--up", default="z")
+    parser.add_argument("--changes", type=int, default=0, help="of a level such as 'city 8'")
+    parser.add_argument("--within", type=float, default=0.5, help="[s] as of World.change_level")
     asked = parser.parse_args()
-    graph = navmesh.NodeGraph.build(navmesh.Terrain.load(asked.level, up=asked.up))
+    kind, _, size = asked.level.partition(" ")
+    if kind in LARGE_LEVELS:
+        terrain = join_chunks(split_terrain(large_level(kind, int(size), asked.seed), _CHUNK), asked.level)
+    else:
+        terrain = navmesh.Terrain.load(asked.level, up=asked.up)
+    graph = navmesh.NodeGraph.build(terrain)
     for people in asked.people:
         counts = {"human": people, "dog": asked.dogs, "walker": asked.walkers}
+        if asked.changes:
+            play = Play(graph, counts, asked.speed, asked.seed, asked.rehearsal_ticks)
+            around = play.change(chunks_of(terrain), asked.changes, asked.within)
+            print(f"{people} people, {asked.dogs} dogs, {asked.walkers} walkers, {asked.level}")
+            print(told_around("  no change", around.without))
+            print(told_around("  changed at once", around.at_once))
+            print(told_around(f"  changed within {asked.within:g} s", around.within))
+            continue
         times = measured(graph, counts, asked.speed, asked.seconds, asked.seed, asked.rehearsal_ticks)
         print(f"{people} people, {asked.dogs} dogs, {asked.walkers} walkers, {asked.seconds:g} s")
         print(told("  frames", times.frames))

@@ -9,12 +9,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.sparse.csgraph import connected_components
 
 import navmesh
 from locomotion.crowd.throats import throats_of
 from navmesh.disjoint_sets import root
 from navmesh.graph.kernel_arrays import net_of
+from navmesh.routes.heap import push, take_first
 from navmesh.surface.clearance_field import centre_of
 from navmesh.surface.columns import column_of
 from navmesh.surface.recall import nearest_of
@@ -130,6 +131,30 @@ def _pairs(net, throats):
     return pairs[:count].copy()
 
 
+@allocating_kernel(nogil=True)
+def _ways(start, target, length, sources):
+    """(n,) float64 [m]: the shortest way over links in CSR form from the nearest of the ``sources``."""
+    way = np.full(start.size - 1, np.inf)
+    keys, items = np.empty(target.size + sources.size), np.empty(target.size + sources.size, np.int32)
+    size = sources.size
+    for k in range(size):
+        way[sources[k]] = keys[k] = 0.0
+        items[k] = sources[k]
+    while size > 0:
+        far, here = keys[0], items[0]
+        take_first(keys, items, size)
+        size -= 1
+        if far > way[here]:
+            continue
+        for link in range(start[here], start[here + 1]):
+            there = target[link]
+            if far + length[link] < way[there]:
+                way[there] = far + length[link]
+                push(keys, items, size, way[there], there)
+                size += 1
+    return way
+
+
 def _joined(surface: Surface, net: Any, throats: NDArray[np.int64]) -> csr_array:
     """The throats as a graph of links, straight or across a corner."""
     source, target = _pairs(net, throats).T
@@ -181,6 +206,7 @@ def _gates(graph: navmesh.NodeGraph, limit: float) -> Gates:
     passage[np.sum(passage * passage[narrowest[gate]], axis=1) < 0.0] *= -1.0
     # distance from the farthest end
     first = _first_by(np.zeros(len(throats)), part)
-    end = _first_by(-dijkstra(joined, indices=first, min_only=True), part)
-    way = dijkstra(joined, indices=end, min_only=True)
+    links = joined.indptr, joined.indices, joined.data
+    end = _first_by(-_ways(*links, first), part)
+    way = _ways(*links, end)
     return Gates(row, gate[by], way[by], passage[by], half[narrowest])

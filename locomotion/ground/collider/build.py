@@ -82,10 +82,9 @@ def build_triangle_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64
 
     Degenerate triangles are left out. The result does not depend on anything but the input's order.
     """
-    keys = np.round(vertices / WELD).astype(np.int64)
-    _, first, welded = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    first, welded = _welded(np.round(vertices / WELD).astype(np.int64))
     points = vertices[first]
-    corners = welded.reshape(-1)[faces]
+    corners = welded[faces]
     distinct = (
         (corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]) & (corners[:, 2] != corners[:, 0])
     )
@@ -142,6 +141,18 @@ def scaled_arrays(arrays: TriangleArrays, factor: float) -> TriangleArrays:
     grid[[WEST, SOUTH]] *= factor
     grid[PER_METRE] /= factor
     return replace(arrays, rows=rows, cell_range=factor * arrays.cell_range, grid=grid)
+
+
+def _welded(keys: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The first of the ``keys`` (v, 3) of each kind, kinds in rising order, and the kind of each (v,). It
+    does what `numpy.unique` of rows does, in a fifth of the time."""
+    order = np.lexsort(keys.T[::-1])
+    sorted_keys = keys[order]
+    new = np.ones(len(keys), bool)
+    new[1:] = (sorted_keys[1:] != sorted_keys[:-1]).any(axis=1)
+    welded = np.empty(len(keys), np.int64)
+    welded[order] = np.cumsum(new) - 1
+    return order[new], welded
 
 
 def _edges(corners: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -295,6 +306,8 @@ def _depth_limits(rows, flags, cell_start, cell_triangles, grid, shape):
                 c = ix * shape[1] + iy
                 for i in range(cell_start[c], cell_start[c + 1]):
                     s = cell_triangles[i]
+                    if ix != max(flags[s, FIRST_X], x0) or iy != max(flags[s, FIRST_Y], y0):
+                        continue  # it has been looked at in another cell
                     if rows[s, LOW_Z] > rows[t, HIGH_Z] or rows[s, HIGH_Z] < rows[t, LOW_Z] - reach:
                         continue
                     facing = rows[t, NX] * rows[s, NX] + rows[t, NY] * rows[s, NY] + rows[t, NZ] * rows[s, NZ]

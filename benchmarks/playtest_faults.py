@@ -1,19 +1,23 @@
 """Whether the playtest tells planted faults from harmless look-alikes, and how fast it is.
 
     python -m benchmarks.playtest_faults [--seed 1] [--count 40] [--bots 8] [--seconds 60] [--json FILE]
-    python -m benchmarks.playtest_faults --courtyard | --dungeon
+    python -m benchmarks.playtest_faults --courtyard | --dungeon | --large "city 2" "city 4"
 
 Forty halls with one fault each, and forty with something that only looks like one, at random sizes, places
 and angles (`benchmarks.planted_rooms`). A fault is found if it is the only failure, with its kind, within 0.5
 m of its place, and measured within 5 cm (slopes: 1 degree); a look-alike holds if nothing fails. With
 --courtyard twenty faults are planted in our courtyard, one at a time. With --dungeon 64 bots play Recast's
-dungeon for 300 s each, in 1 and in 2 processes, and the reports are compared.
+dungeon for 300 s each, in 1 and in 2 processes, and the reports are compared. With --large one bot plays
+levels of `benchmarks.large_levels` for 5 s; printed are the processor times of the playtest and of its page,
+and what was found, with a digest of the report.
 """
 
 import argparse
+import hashlib
 import json
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -23,9 +27,11 @@ import numpy as np
 import shapely
 import trimesh
 
+from benchmarks.large_levels import large_level
 from benchmarks.planted_rooms import FAULTS, LOOK_ALIKES, Hall, planted
 from benchmarks.shared_data import level_path, shared_folder, why_absent
 from runtime.playtest import Fault, playtest
+from runtime.playtest.page import write_page
 
 COURTYARD = Path(__file__).resolve().parents[1] / "examples" / "levels" / "courtyard.obj"
 IN_PLACE = 0.5
@@ -255,6 +261,33 @@ def play_dungeon(bots: int = 64, seconds: float = 300.0) -> dict:
     return {**found, "equal": reports[0] == reports[1]}
 
 
+def play_large(name: str, seed: int) -> dict:
+    """How long a playtest of a large level takes, and how much it finds."""
+    kind, size = name.split()
+    terrain = large_level(kind, int(size), seed)
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / f"{kind}.ply"
+        trimesh.Trimesh(terrain.vertices, terrain.faces, process=False).export(file)
+        begun = time.process_time()
+        outcome = playtest(file, bots=1, seconds=5.0, seed=seed)
+        played = time.process_time()
+        write_page(outcome, Path(folder) / "report.html")
+        drawn = time.process_time()
+    report = outcome.report
+    kinds = Counter(fault.kind for fault in report.faults)
+    told = json.dumps([fault.to_dict() for fault in report.faults])
+    figures = {
+        "triangles": len(terrain.faces), "played": played - begun, "drawn": drawn - played, "found": kinds,
+        "digest": hashlib.sha256(told.encode()).hexdigest()[:12],
+    }  # fmt: skip
+    print(
+        f"{name}, seed {seed}, {len(terrain.faces)} triangles: playtest {figures['played']:.1f} s, page "
+        f"{figures['drawn']:.1f} s; {len(report.faults)} findings {figures['digest']}: {dict(kinds)}",
+        flush=True,
+    )
+    return figures
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seed", type=int, default=1)
@@ -263,12 +296,15 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--courtyard", action="store_true", help="plant twenty in the courtyard instead")
     parser.add_argument("--dungeon", action="store_true", help="only time the dungeon")
+    parser.add_argument("--large", nargs="+", help="only time playtests of these levels")
     parser.add_argument("--json", type=Path, help="write the figures here")
     options = parser.parse_args()
     if options.dungeon and shared_folder() is None:
         raise SystemExit(f"dungeon skipped: {why_absent()}")
     if options.dungeon:
         figures = play_dungeon()
+    elif options.large:
+        figures = {name: play_large(name, options.seed) for name in options.large}
     elif options.courtyard:
         figures = find_all(options.bots, options.seconds)
     else:

@@ -36,7 +36,7 @@ def made(folder: Path, window: float, size: float) -> tuple[runtime.World, dict[
     start, far = np.array([15.0, 15.0, 0.0]), size - 6.0
     city = OpenWorld(folder, radius=window)
     city.keep_around(start, changes=100)
-    world = runtime.World(city, seed=0, threads=2)
+    world = runtime.World(city, seed=0)
     goals = {}
     for number, (name, body) in enumerate(BODIES.items()):
         agent = world.spawn(body, start + np.array([0.0, 0.8 * number, 0.0]), name=name)

@@ -10,6 +10,7 @@ from runtime.playtest.fault import Fault
 from runtime.playtest.holes import Hole
 from runtime.playtest.openings import Barrier
 from runtime.playtest.passages import narrow_passages
+from runtime.playtest.sides import Side
 from runtime.playtest.site import Site
 from runtime.playtest.solids import is_inside_solid
 from runtime.playtest.wording import Wording, triple
@@ -55,6 +56,7 @@ def analyse(
 def _unreachable(site: Site, spawns: np.ndarray, forbidden: set[int], wanted: set[int]) -> list[Fault]:
     words, barriers = Wording(site.character), Barriers(site)
     reached = site.reached(spawns)
+    here = site.side(reached)
     faults, tops = [], []
     for parts in _first_missing(site, reached):
         area = float(site.areas[parts].sum())
@@ -64,7 +66,7 @@ def _unreachable(site: Site, spawns: np.ndarray, forbidden: set[int], wanted: se
         if not is_wanted and 2.0 * site.graph.radii[np.isin(site.node_part, parts)].max() < _TOP:
             tops.append(parts)
         elif is_wanted or not is_inside_solid(site, site.centre_of(int(parts[0]))):
-            faults.append(_explained(site, barriers, words, reached, parts, is_wanted))
+            faults.append(_explained(site, barriers, words, here, parts, is_wanted))
     if tops:
         areas = [float(site.areas[parts].sum()) for parts in tops]
         place = site.centre_of(int(tops[int(np.argmax(areas))][0]))
@@ -77,21 +79,27 @@ def _first_missing(site: Site, reached: np.ndarray) -> Iterator[np.ndarray]:
     """The parts (k,) that are not ``reached``, in groups that one way in would open: first those that lead
     on to others, with all that they lead to."""
     left = ~reached
-    order = np.argsort([-site.reached(np.array([part])).sum() for part in range(len(left))], kind="stable")
+    ends = np.diff(site.arcs.indptr) == 0  # they lead nowhere else
+
+    def led_to(part: int) -> np.ndarray:
+        return np.array([part]) if ends[part] else np.flatnonzero(site.reached(np.array([part])))
+
+    order = np.argsort([-len(led_to(part)) for part in range(len(left))], kind="stable")
     for part in order.tolist():
         if left[part]:
-            group = np.flatnonzero(left & site.reached(np.array([part])))
+            group = led_to(part)
+            group = group[left[group]]
             left[group] = False
             # the group's own part first: it is where the way in is missing
             yield np.concatenate([[part], group[group != part]])
 
 
 def _explained(
-    site: Site, barriers: Barriers, words: Wording, reached: np.ndarray, parts: np.ndarray, wanted: bool
+    site: Site, barriers: Barriers, words: Wording, here: Side, parts: np.ndarray, wanted: bool
 ) -> Fault:
     """Why ``parts`` cannot be reached, from the easiest thing to mend to the hardest."""
     character = site.character
-    here, there = _cells(site, reached), np.isin(site.cell_part, parts)
+    there = Side(site.graph.surface, site.cells_of(*parts.tolist()))
     centre, area = site.centre_of(int(parts[0])), float(site.areas[parts].sum())
     climb = max(character.reach("onto"), site.graph.rules.max_step) + ALMOST
     barrier = barriers.between(here, there, climb)
@@ -134,17 +142,12 @@ def _measured(
     return Fault(kind, triple(barrier.place), text, fails, extent=area, size=size, span=span)
 
 
-def _cells(site: Site, parts: np.ndarray) -> np.ndarray:
-    """(n,) bool: the cells of ``parts`` (p,) bool where the body's middle can be."""
-    return np.append(parts, False)[site.cell_part]
-
-
 def _no_return(site: Site, spawns: np.ndarray) -> list[Fault]:
     """What is entered but not left again: traps where it ends, one-way parts where it goes on elsewhere."""
     words, barriers = Wording(site.character), Barriers(site)
     lost = site.reached(spawns) & ~site.returning(spawns)
     faults = []
-    back = _cells(site, site.returning(spawns))
+    back = site.side(site.returning(spawns))
     for loop in np.unique(site.loops[lost]):
         inside = site.loops == loop
         area = float(site.areas[inside].sum())
@@ -153,7 +156,7 @@ def _no_return(site: Site, spawns: np.ndarray) -> list[Fault]:
         ends = not (inside[site.way_from] & ~inside[site.way_to]).any()
         kind = "trap" if ends and area <= PIT else "one_way"
         entries = site.ways[~inside[site.way_from] & inside[site.way_to]]
-        there = _cells(site, inside)
+        there = site.side(inside)
         out = barriers.between(there, back, HIGHEST) or barriers.ledge(there, back)
         if out is not None and out.kind in ("gap", "wall"):
             out = barriers.ledge(there, back) or out

@@ -3,14 +3,16 @@ each other.
 
 Where is told by the graph's cells, what and how much by the mesh (`runtime.playtest.openings`). Great heights
 are left to the cells: of all ways from one set of cells to another, the one whose highest ledge is lowest.
-Joining cells, the least rise first, until the two sets are joined, finds it (Kruskal).
+Joining floors that are walked on, the least rise first, until the two sets are joined, finds it (Kruskal).
 """
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property
 
 import numpy as np
-from scipy.spatial import KDTree
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from navmesh.disjoint_sets import root
 from navmesh.level.mesh_queries import MeshGrid, crossed, lowest_above
@@ -19,6 +21,7 @@ from navmesh.surface.floor_store import gradient_of, height_of
 from navmesh.surface.storeys import APART
 from runtime.playtest.floorplan import Allowance
 from runtime.playtest.openings import Barrier, Opening
+from runtime.playtest.sides import Side
 from runtime.playtest.site import Site
 from surefoot.kernels import allocating_kernel
 
@@ -41,19 +44,18 @@ class Barriers:
 
     def __init__(self, site: Site) -> None:
         self.site = site
-        self._steps: tuple[np.ndarray, np.ndarray] | None = None
 
-    def between(self, of: np.ndarray, to: np.ndarray, highest: float) -> Barrier | None:
-        """What keeps cells ``of`` (bool, per cell) from cells ``to``: the first kind of barrier that there is
-        anywhere between them, and of this kind the one that keeps them apart the least. Steps up (or down)
-        are told up to ``highest`` [m]."""
+    def between(self, of: Side, to: Side, highest: float) -> Barrier | None:
+        """What keeps cells ``of`` from cells ``to``: the first kind of barrier that there is anywhere between
+        them, and of this kind the one that keeps them apart the least. Steps up (or down) are told up to
+        ``highest`` [m]."""
         rules = self.site.graph.rules
-        places = list(self._places(of, to))
+        low, steep = _LOWEST * rules.headroom, max(_WALL, rules.max_slope)
+        high = min(highest, 0.95 * rules.headroom)
+        places = [each for each in self._places(of, to) if each.may_join(high)]
         if fits := [each for each in places if each.passes]:
             # the graph, which samples, has lost what only just passes
             return fits[0].tight()
-        low, steep = _LOWEST * rules.headroom, max(_WALL, rules.max_slope)
-        high = min(highest, 0.95 * rules.headroom)
         return (
             _best(places, Opening.narrow, SLIT, 1.0)
             or self._centred(_best(places, Opening.low, low, 1.0), of, to)
@@ -71,59 +73,60 @@ class Barriers:
         found = [each for place in places if (each := find(place, mesh_grid, origin)) is not None]
         return min(found, key=lambda each: each.size, default=None)
 
-    def _centred(self, low: Barrier | None, of: np.ndarray, to: np.ndarray) -> Barrier | None:
+    def _centred(self, low: Barrier | None, of: Side, to: Side) -> Barrier | None:
         """A ``low`` passage once more, in the middle of a larger box: it may be wider than what was looked
         at."""
         if low is None:
             return None
-        here, there = (self.site.graph.surface.centers(np.flatnonzero(side)) for side in (of, to))
         around = np.array([_TILE, _TILE, 0.0])
-        again = opening_at(self.site, np.array([low.place - around, low.place + around]), here, there)
+        again = opening_at(self.site, np.array([low.place - around, low.place + around]), of, to)
         return again.low(low.size - 0.01) or low
 
-    def _places(self, of: np.ndarray, to: np.ndarray) -> Iterator[Opening]:
+    def _places(self, of: Side, to: Side) -> Iterator[Opening]:
         """Where cells ``of`` and ``to`` come near each other, the nearest first."""
-        surface = self.site.graph.surface
-        here, there = np.flatnonzero(of), np.flatnonzero(to)
-        if not len(here) or not len(there):
+        if not len(of.cells) or not len(to.cells):
             return
-        a, b = surface.centers(here), surface.centers(there)
-        away, nearest = (np.asarray(each) for each in KDTree(a).query(b, distance_upper_bound=_FAR))
+        a = of.places
+        b = to.within(a.min(axis=0) - _FAR, a.max(axis=0) + _FAR)
+        away, nearest = (np.asarray(each) for each in of.tree.query(b, distance_upper_bound=_FAR))
         near = np.flatnonzero(np.isfinite(away))
         near = near[np.argsort(away[near], kind="stable")]
         middles = 0.5 * (b[near] + a[nearest[near]])
         tiles = np.unique(np.floor(middles / _TILE), axis=0, return_index=True)[1]
         for k in near[np.sort(tiles)][:_MOST].tolist():
-            ends = np.array([b[k], a[nearest[k]]])
-            yield opening_at(self.site, ends, a, b)
+            yield opening_at(self.site, np.array([b[k], a[nearest[k]]]), of, to)
 
-    def ledge(self, of: np.ndarray, to: np.ndarray) -> Barrier | None:
-        """The lowest ledge on the way from cells ``of`` (bool, per cell) to cells ``to``: how far up, or
-        (negative) down, its highest one goes on the easiest way."""
-        if self._steps is None:
-            self._steps = self._all_steps()
-        ends, rises = self._steps
-        at, forward = _first_to_join(ends, of, to)
+    def ledge(self, of: Side, to: Side) -> Barrier | None:
+        """The lowest ledge on the way from cells ``of`` to cells ``to``: how far up, or (negative) down, its
+        highest one goes on the easiest way."""
+        floor, ends, rises = self._ledges
+        here, there = np.zeros((2, int(floor.max(initial=-1)) + 1), np.bool_)
+        here[floor[of.cells]] = there[floor[to.cells]] = True
+        if (here & there).any():  # one walks there
+            return None
+        at, forward = _first_to_join(floor[ends], here, there)
         if at < 0 or rises[at] == 0.0:
             return None
         low, high = self.site.graph.surface.centers(ends[at])
         span = np.array([[*(0.5 * (low + high))[:2], z] for z in (low[2], high[2])])
         return Barrier("rise", float(rises[at] if forward else -rises[at]), span[1], span)
 
-    def _all_steps(self) -> tuple[np.ndarray, np.ndarray]:
-        """Pairs (k, 2) of neighbouring cells, lower first, and the rise [m] of each, 0 where one walks; in
-        the order of the rise."""
+    @cached_property
+    def _ledges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(n,) which cells one walks between: they have the same number; and of neighbours that one does not,
+        lower first (k, 2), the rise (k,) [m], in its order."""
         surface, rules = self.site.graph.surface, self.site.graph.rules
         low, high, rise = _ledges(
             self.site.mesh_grid.arrays, cells_of(surface), surface.cell_column, rules.max_step, rules.headroom
         )
-        link = surface.link
-        walked = [np.flatnonzero(link[:, d] >= 0) for d in (0, 1)]
-        source = np.concatenate([*walked, low])
-        target = np.concatenate([*(link[cells, d] for d, cells in enumerate(walked)), high])
-        rises = np.concatenate([np.zeros(len(source) - len(low)), rise])
-        order = np.argsort(rises, kind="stable")
-        return np.stack([source, target], axis=1)[order], rises[order]
+        link, count = surface.link, len(surface)
+        source = [np.flatnonzero(link[:, way] >= 0) for way in (0, 1)]
+        target = [link[cells, way] for way, cells in enumerate(source)]
+        walked = np.concatenate(source), np.concatenate(target)
+        links = coo_array((np.ones(len(walked[0]), np.int8), walked), shape=(count, count))
+        order = np.argsort(rise, kind="stable")
+        floor = connected_components(links, directed=False)[1]
+        return floor, np.stack([low, high], axis=1)[order], rise[order]
 
 
 def _best(
@@ -140,16 +143,16 @@ def _best(
     return best
 
 
-def opening_at(site: Site, ends: np.ndarray, here: np.ndarray, there: np.ndarray) -> Opening:
-    """The opening around ``ends`` (2, 3) [m] on its two sides; of ``here`` (k, 3) and ``there`` (m, 3) [m]
-    what is near."""
+def opening_at(site: Site, ends: np.ndarray, here: Side, there: Side) -> Opening:
+    """The opening around ``ends`` (2, 3) [m] on its two sides; of ``here`` and ``there`` what is near."""
     rules, radius = site.graph.rules, site.character.radius
     aside = _BESIDE + 2.0 * radius
     up = rules.max_step + 0.3
     margin = np.array([aside, aside, up])
     box = np.array([ends.min(axis=0) - margin, ends.max(axis=0) + margin])
-    sides = (side[((side >= box[0]) & (side <= box[1])).all(axis=1)] for side in (here, there))
-    return Opening(site.mesh, box, Allowance.of(rules), radius, *sides)
+    return Opening(
+        site.mesh, box, Allowance.of(rules), radius, here.within(box[0], box[1]), there.within(box[0], box[1])
+    )
 
 
 @allocating_kernel

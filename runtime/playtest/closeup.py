@@ -51,8 +51,7 @@ def close_up(site: Site, triangles: Triangles, fault: Fault) -> np.ndarray:
 
 def _floor_around(site: Site, at: np.ndarray, long: float) -> np.ndarray:
     """(k, 3) [m]: places near ``at`` (3,) where the body fits."""
-    places = site.graph.surface.centers(np.flatnonzero(site.cell_part >= 0))
-    return places[(np.abs(places - at) <= _NEAR + long).all(axis=1)]
+    return site.everywhere.within(at - (_NEAR + long), at + (_NEAR + long))
 
 
 def _from(ends: np.ndarray, around: np.ndarray, down: float) -> np.ndarray:

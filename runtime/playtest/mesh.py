@@ -47,7 +47,13 @@ class Mesh:
 
     def within(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """(k,) int: the triangles whose box meets the box from ``low`` to ``high`` (3,) [m]."""
-        return np.flatnonzero(((self.high >= low) & (self.low <= high)).all(axis=1))
+        near = np.sort(self._boxes.query(shapely.box(*low[:2], *high[:2])))
+        return near[((self.high[near] >= low) & (self.low[near] <= high)).all(axis=1)]
+
+    @cached_property
+    def _boxes(self) -> shapely.STRtree:
+        """Of the triangles' boxes, seen from above."""
+        return shapely.STRtree(shapely.box(*self.low[:, :2].T, *self.high[:, :2].T))
 
 
 def _outlines(points: np.ndarray) -> np.ndarray:

@@ -31,6 +31,7 @@ _LEVEL = 0.3  # [m] floors on both sides of a gap differ in height by at most th
 _FLAT = 0.5  # [m] floors on both sides of a wall differ by at most this
 _TIGHT = 0.1  # [m] more on each side than the body needs, and a passage is not tight
 _FARTHEST = 5.0  # [m] across
+_OFF = 0.25  # [m] that heights beside a face may be off its own: so much a slope of 60° rises over a crack
 
 
 class Barrier(NamedTuple):
@@ -81,6 +82,19 @@ class Opening:
     def passes(self) -> bool:
         """Whether the body gets across by the rules as they are."""
         return self.passes_with()
+
+    def may_join(self, most: float) -> bool:
+        """Whether there are floors at heights between those of its two sides, with no more than ``most`` [m]
+        from one to the next. Where there are not, no rule is so loose that the sides join, nor are they at
+        about the same height."""
+        mesh = self._mesh
+        faces = mesh.within(self._low, self._high)
+        faces = faces[mesh.up[faces] > 0.0]
+        order = np.argsort(mesh.low[faces, 2], kind="stable")
+        low, high = mesh.low[faces[order], 2], np.maximum.accumulate(mesh.high[faces[order], 2])
+        begin = np.append(-np.inf, low[1:][low[1:] > high[:-1] + most + 2.0 * _OFF])
+        here, there = (np.searchsorted(begin, side[:, 2] + _OFF, "right") for side in (self.here, self.there))
+        return bool(np.isin(here, there).any())
 
     def passes_with(self, **loose: float) -> bool:
         """Whether the body gets across where rules of the `Allowance` are as ``loose`` as this."""

@@ -11,12 +11,12 @@ from typing import NamedTuple
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
-from scipy.spatial import KDTree
 
 from navmesh.level.mesh_queries import crossed, surface_below
 from navmesh.level.raster import FLOOR, KIND
 from runtime.playtest.barriers import SLIT, opening_at
 from runtime.playtest.openings import Barrier
+from runtime.playtest.sides import Side
 from runtime.playtest.site import Site
 from surefoot.kernels import allocating_kernel
 
@@ -46,8 +46,9 @@ def narrow_passages(site: Site, reached: np.ndarray) -> list[Passage]:
     cells = np.flatnonzero(np.append(reached, False)[site.cell_part])
     if len(cells) < 2:
         return []
-    places = graph.surface.centers(cells)
-    start, end = _seen_through(site, cells, places)
+    side = Side(graph.surface, cells)
+    places = side.places
+    start, end = _seen_through(site, side)
     if not len(start):
         return []
     through = np.linalg.norm(places[end] - places[start], axis=1)
@@ -63,7 +64,7 @@ def narrow_passages(site: Site, reached: np.ndarray) -> list[Passage]:
         ends = places[[start[k], end[k]]]
         if any(np.linalg.norm(each.barrier.place - ends.mean(axis=0)) < _APART for each in found):
             continue
-        barrier = _narrowest(site, cells, ends, int(cells[start[k]]), int(cells[end[k]]))
+        barrier = _narrowest(site, side, ends, int(cells[start[k]]), int(cells[end[k]]))
         if barrier is None or any(
             np.linalg.norm(each.barrier.place - barrier.place) < _APART for each in found
         ):
@@ -72,9 +73,10 @@ def narrow_passages(site: Site, reached: np.ndarray) -> list[Passage]:
     return found
 
 
-def _seen_through(site: Site, cells: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Indices (k,) each of ``places`` that see each other over a boundary that is not walked: of every bit of
-    it the nearest two."""
+def _seen_through(site: Site, side: Side) -> tuple[np.ndarray, np.ndarray]:
+    """Indices (k,) each of the places of a ``side`` that see each other over a boundary that is not walked:
+    of every bit of it the nearest two."""
+    cells, places = side.cells, side.places
     surface, rules, radius = site.graph.surface, site.graph.rules, site.character.radius
     edge = np.flatnonzero(surface.clearance[cells] < radius + 1.5 * surface.resolution)
     turns = 2.0 * math.pi * np.arange(_WAYS) / _WAYS
@@ -89,13 +91,13 @@ def _seen_through(site: Site, cells: np.ndarray, places: np.ndarray) -> tuple[np
     )
     local = places[points] - surface.origin
     reach = _sights(site.mesh_grid.arrays, local, ways, far, rules.max_step, heights)
-    tree = KDTree(places)
     starts, ends = [], []
     for along in np.arange(least, far + 1e-9, 0.5 * surface.resolution):
         seen = np.flatnonzero(reach >= along)
         at = places[points[seen]] + np.column_stack([along * ways[seen], np.zeros(len(seen))])
         off, cell = (
-            np.asarray(each) for each in tree.query(at, distance_upper_bound=0.71 * surface.resolution + 0.1)
+            np.asarray(each)
+            for each in side.tree.query(at, distance_upper_bound=0.71 * surface.resolution + 0.1)
         )
         near = np.isfinite(off)
         starts.append(points[seen[near]])
@@ -123,24 +125,23 @@ def _walked(site: Site, start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return walked
 
 
-def _narrowest(site: Site, cells: np.ndarray, ends: np.ndarray, start: int, end: int) -> Barrier | None:
-    """The passage between cells ``start`` and ``end``, which are at ``ends`` (2, 3) [m]; None where the body
-    fits through."""
+def _narrowest(site: Site, whole: Side, ends: np.ndarray, start: int, end: int) -> Barrier | None:
+    """The passage between cells ``start`` and ``end`` of the ``whole``, which are at ``ends`` (2, 3) [m];
+    None where the body fits through."""
     surface = site.graph.surface
     middle, reach = ends.mean(axis=0), _AROUND + 0.5 * float(np.linalg.norm(ends[1] - ends[0]))
-    places = surface.centers(cells)
-    near = cells[(np.abs(places - middle) <= (reach, reach, 1.0)).all(axis=1)]
-    index = np.full(len(surface), -1)
-    index[near] = np.arange(len(near))
+    around = np.array([reach, reach, 1.0])
+    near = whole.cells[whole.rows_within(middle - around, middle + around)]
     link = surface.links(near)
-    other = np.where(link >= 0, index[link], -1)
+    at = np.minimum(np.searchsorted(near, link), len(near) - 1)
+    other = np.where(near[at] == link, at, -1)
     one, way = np.nonzero(other >= 0)
     links = coo_array((np.ones(len(one)), (one, other[one, way])), shape=(len(near),) * 2)
     side = connected_components(links, directed=False)[1]
-    here, there = side[index[start]], side[index[end]]
+    here, there = side[np.searchsorted(near, [start, end])]
     if here == there:
         return None
-    place = opening_at(site, ends, *(surface.centers(near[side == each]) for each in (here, there)))
+    place = opening_at(site, ends, *(Side(surface, near[side == each]) for each in (here, there)))
     return None if place.passes else place.narrow(SLIT)
 
 

@@ -11,6 +11,7 @@ from navmesh.graph.open_to_body import parts_of, portals_of
 from navmesh.level.mesh_queries import MeshGrid
 from runtime.playtest.character import Character
 from runtime.playtest.mesh import Mesh
+from runtime.playtest.sides import Side
 
 __all__ = ["Site"]
 
@@ -96,9 +97,26 @@ class Site:
                 found[k] = self.node_part[here.nodes[0]]
         return found
 
-    def cells_of(self, part: int) -> np.ndarray:
-        """(c,) int: the cells where the body's middle can be, of ``part``."""
-        return np.flatnonzero(self.cell_part == part)
+    def cells_of(self, *parts: int) -> np.ndarray:
+        """(c,) int, rising: the cells where the body's middle can be, of ``parts``."""
+        order, first = self._by_part
+        each = [order[first[part] : first[part + 1]] for part in parts]
+        return np.sort(np.concatenate([order[:0], *each]))
+
+    def side(self, parts: np.ndarray) -> Side:
+        """The cells of ``parts`` (p,) bool."""
+        return Side(self.graph.surface, self.cells_of(*np.flatnonzero(parts).tolist()))
+
+    @cached_property
+    def everywhere(self) -> Side:
+        """All cells where the body's middle can be."""
+        return Side(self.graph.surface, np.flatnonzero(self.cell_part >= 0))
+
+    @cached_property
+    def _by_part(self) -> tuple[np.ndarray, np.ndarray]:
+        """The cells in the order of their parts, and where those of each part begin (p + 1,)."""
+        order = np.argsort(self.cell_part, kind="stable")
+        return order, np.searchsorted(self.cell_part[order], np.arange(len(self.areas) + 1))
 
     def centre_of(self, part: int) -> np.ndarray:
         """(3,) float64 [m]: the roomiest place of ``part``."""

@@ -46,8 +46,7 @@ class HostedWorld:
         manual: bool,
     ) -> None:
         self.name, self.level, self.manual = name, level, manual
-        # with a thread more, chunks are loaded meanwhile
-        self.world = World(start, seed, threads=2 if isinstance(start, navmesh.OpenWorld) else 1)
+        self.world = World(start, seed)
         self.loaded = self.world.loaded
         self.clients: dict[Client, States] = {}
         self.spawned: dict[str, Client | None] = {}

@@ -88,7 +88,7 @@ def clearest(level: Triangles, camera: Camera, points: np.ndarray) -> tuple[Came
         np.maximum(points.max(axis=0), camera.target + away),
     )
     corners = level.corners
-    near = np.all((corners.max(axis=1) > low) & (corners.min(axis=1) < high), axis=1)
+    near = np.all((level.high > low) & (level.low < high), axis=1)
     best, fewest = camera, len(points) + 1
     for nearer, rise, turn in itertools.product(_NEARER, _RISES, _TURNS):
         up, to = min(pitch + rise, _STEEPEST), yaw + turn

@@ -7,6 +7,7 @@ import numpy as np
 
 from runtime.bodies.figure import Shapes
 from runtime.views.ray_kernel import cast_faces
+from runtime.views.shading_kernel import paint, points_near, shade
 from runtime.views.shape_kernel import cast_shapes, in_shadow
 
 __all__ = ["Camera", "Triangles", "render"]
@@ -20,6 +21,7 @@ FLOOR, FLOOR_DARK, WALL = (
     np.array([0.73, 0.72, 0.69]),
     np.array([0.70, 0.67, 0.63]),
 )
+_LIGHTS = np.array([SUN, SKY_LOW, SKY_HIGH, FLOOR, FLOOR_DARK])
 
 
 @dataclass(frozen=True)
@@ -60,6 +62,8 @@ class Triangles:
         self.corners = corners[whole]
         self.normals = normal[whole] / area[whole, None]
         self.colours = None if colours is None else colours[whole]
+        self.low, self.high = self.corners.min(axis=1), self.corners.max(axis=1)
+        """(f, 3) float64: the least and the greatest coordinates of each."""
 
 
 def render(
@@ -86,8 +90,10 @@ def render(
         _draw_shapes(frame, shapes)
     for skin in skins:
         _draw_faces(frame, skin, reach, 0.0)
-    image = _shade(frame, [*figures, *shadows], reach)
-    small = image.reshape(size[1], 2, size[0], 2, 3).mean(axis=(1, 3))
+    small = shade(
+        camera.eye, rays, frame.distance, frame.normal, frame.colour,
+        _sunlit(frame, [*figures, *shadows]), reach, _LIGHTS,
+    )  # fmt: skip
     return (np.clip(small, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
 
 
@@ -122,8 +128,7 @@ class _Frame:
 def _draw_faces(frame: _Frame, triangles: Triangles, reach: float, cutaway: float) -> None:
     eye = frame.camera.eye
     towards = np.einsum("fc,fc->f", triangles.corners[:, 0] - eye, triangles.normals)
-    low, high = triangles.corners.min(axis=1), triangles.corners.max(axis=1)
-    gap = np.maximum(np.maximum(low - eye, eye - high), 0.0)
+    gap = np.maximum(np.maximum(triangles.low - eye, eye - triangles.high), 0.0)
     seen = np.nonzero((towards < 0.0) & (np.linalg.norm(gap, axis=1) < reach))[0]
     normals = triangles.normals[seen]
     level = normals[:, 2] > FLAT
@@ -131,12 +136,9 @@ def _draw_faces(frame: _Frame, triangles: Triangles, reach: float, cutaway: floa
     face = cast_faces(
         eye, frame.axes, frame.scale, frame.rays, triangles.corners[seen], nearest, frame.distance
     )
-    hit = face >= 0
-    frame.normal[hit] = normals[face[hit]]
-    if triangles.colours is None:
-        frame.colour[hit] = np.where(level[face[hit], None], FLOOR, WALL)
-    else:
-        frame.colour[hit] = triangles.colours[seen[face[hit]]]
+    by_slope = np.where(level[:, None], FLOOR, WALL)
+    colours = by_slope if triangles.colours is None else triangles.colours[seen]
+    paint(face, normals, colours, frame.normal, frame.colour)
 
 
 def _draw_shapes(frame: _Frame, shapes: Shapes) -> None:
@@ -149,32 +151,15 @@ def _draw_shapes(frame: _Frame, shapes: Shapes) -> None:
     frame.colour[hit >= 0] = shapes.colour[hit[hit >= 0]]
 
 
-def _shade(frame: _Frame, figures: list[Shapes], reach: float) -> np.ndarray:
-    hit = np.isfinite(frame.distance)
-    up = np.clip(frame.rays[..., 2:3] * 2.5, 0.0, 1.0)
-    sky = SKY_LOW + up * (SKY_HIGH - SKY_LOW)
-    point = frame.camera.eye + np.where(hit, frame.distance, 0.0)[..., None] * frame.rays
-    tile = (np.floor(point[..., 0] + 1e-4) + np.floor(point[..., 1] + 1e-4)).astype(np.int64) & 1
-    floor = np.all(frame.colour == FLOOR, axis=-1)
-    colour = np.where((floor & (tile == 1))[..., None], FLOOR_DARK, frame.colour)
-    lit = np.clip(frame.normal @ SUN, 0.0, 1.0) * _sunlit(point, frame.normal, hit, figures)
-    light = 0.42 + 0.14 * frame.normal[..., 2] + 0.55 * lit
-    haze = np.clip(frame.distance / reach, 0.0, 1.0)[..., None] ** 2
-    shaded = colour * light[..., None] * (1.0 - haze) + SKY_LOW * haze
-    return np.where(hit[..., None], shaded, sky)
-
-
-def _sunlit(point: np.ndarray, normal: np.ndarray, hit: np.ndarray, figures: list[Shapes]) -> np.ndarray:
+def _sunlit(frame: _Frame, figures: Sequence[Shapes]) -> np.ndarray:
     """1 in sunlight, 0 in the shadow of a figure; (height, width) float64."""
-    free = np.ones(hit.shape)
+    free = np.ones((frame.height, frame.width))
     for shapes in figures:
         middle = shapes.place[:, :3].mean(axis=0)
         size = float(np.max(np.linalg.norm(shapes.place[:, :3] - middle, axis=1) + shapes.size.sum(axis=1)))
-        offset = point - middle
-        to_sun = offset @ SUN
-        aside = np.sum(offset * offset, axis=-1) - to_sun**2
-        near = hit & (aside < size**2) & (to_sun < size)
-        start = point[near] + 0.01 * normal[near]
-        shaded = in_shadow(start, SUN, shapes.place, shapes.size, shapes.round)
-        free[near] = np.where(shaded, 0.0, free[near])
+        where, points = points_near(
+            frame.camera.eye, frame.rays, frame.distance, frame.normal, SUN, middle, size
+        )
+        shaded = where[in_shadow(points, SUN, shapes.place, shapes.size, shapes.round)]
+        free[shaded[:, 0], shaded[:, 1]] = 0.0
     return free

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from runtime.playtest.barriers import Barriers, _first_to_join
+from runtime.playtest.sides import Side
 from tests.runtime.playtest.levels import FLOOR, D, W, box, gap_of, room, site_of, unreached
 
 
@@ -22,9 +23,9 @@ def kept_apart(*parts, high=3.2, beyond=8.15):
     """What keeps the west of a room from its east: ``beyond`` [m] is where the east begins."""
     site = site_of(room(*parts, high=high))
     x = site.graph.surface.centers(np.arange(len(site.graph.surface)))[:, 0]
-    inside = site.cell_part >= 0
-    barriers = Barriers(site)
-    return barriers, inside & (x < beyond), inside & (x > beyond)
+    inside, surface = site.cell_part >= 0, site.graph.surface
+    west, east = (Side(surface, np.flatnonzero(inside & side)) for side in (x < beyond, x > beyond))
+    return Barriers(site), west, east
 
 
 def test_the_wider_of_two_narrow_doors_is_the_one_to_mend():
@@ -52,8 +53,7 @@ def test_the_ledge_on_the_easiest_way_is_told_however_high_the_others_are():
     barriers, low, high = kept_apart(
         FLOOR, box(10, W, 0, D, 0, 1.5), box(9, 10, 4, 6, 0, 0.9), high=5.0, beyond=10.0
     )
-    x = barriers.site.graph.surface.centers(np.arange(len(low)))
-    low &= x[:, 2] < 0.1
+    low = Side(barriers.site.graph.surface, low.cells[low.places[:, 2] < 0.1])
     found = barriers.ledge(low, high)
     assert found.kind == "rise" and found.size == pytest.approx(0.9, abs=0.01)
     assert barriers.ledge(high, low).size == pytest.approx(-0.9, abs=0.01)

@@ -5,6 +5,7 @@ import pytest
 
 from runtime.playtest.barriers import opening_at
 from runtime.playtest.openings import Barrier
+from runtime.playtest.sides import Side
 from tests.runtime.playtest.levels import FLOOR, HOLED, D, W, box, door, played, ramp, room, site_of
 
 
@@ -42,7 +43,8 @@ def opening(*parts, at=8.15):
     """Between places 1 m on both sides of x = ``at``, in the middle of the room."""
     site = site_of(room(*parts))
     ends = np.array([[at - 1.0, 5.0, 0.0], [at + 1.0, 5.0, 0.0]])
-    return opening_at(site, ends, ends[:1], ends[1:])
+    sides = (Side(site.graph.surface, site.graph.project(end[None])[0]) for end in ends)
+    return opening_at(site, ends, *sides)
 
 
 def test_a_door_as_wide_as_the_body_passes_and_is_told_to_be_tight():
@@ -61,3 +63,24 @@ def test_a_lintel_is_measured_from_the_floor():
     assert isinstance(found, Barrier) and found.size == pytest.approx(1.5, abs=0.005)
     assert found.span[1] - found.span[0] == pytest.approx([0.0, 0.0, found.size])
     assert low.low(1.6) is None
+
+
+@pytest.mark.parametrize(
+    ("parts", "joins"),
+    [
+        ((box(8, W, 0, D, 0, 3.0),), False),  # a floor 3 m up
+        ((box(8, W, 0, D, 0, 3.0), box(7.9, 8, 3, 7, 0, 1.5)), True),  # with a block before it
+        ((box(8, W, 0, D, 0, 3.0), box(7.9, 8, 3, 7, 0, 0.3)), False),  # that is too low
+        ((box(8, W, 0, D, 0, 1.8),), True),
+    ],
+)
+def test_sides_far_apart_in_height_are_not_looked_at(parts, joins):
+    site = site_of(room(FLOOR, *parts, high=6.0))
+    ends = np.array([[7.0, 5.0, 0.0], [9.0, 5.0, 1.8 if len(parts) == 1 and joins else 3.0]])
+    sides = (Side(site.graph.surface, site.graph.project(end[None])[0]) for end in ends)
+    place = opening_at(site, ends, *sides)
+    assert place.may_join(1.9) == joins
+    if not joins:  # as it is found by looking
+        assert not place.passes_with(step=1.9) and not place.passes_with(headroom=0.9)
+        assert place.gap(site.mesh_grid, site.graph.surface.origin) is None
+        assert place.wall(site.mesh_grid, site.graph.surface.origin) is None

@@ -26,6 +26,7 @@ ALMOST = 0.5
 _ALMOST_GAP = 1.0  # [m] the same for a gap
 _TOP = 0.6  # [m] parts that are nowhere as wide are the tops of walls and the like, and no floors
 _EVEN = 3.0  # [°] that a ramp's slope may differ from that of the way up it
+_TOLD = 20  # notes on parts that cannot be reached that are told one by one, the largest
 _LOW_STEP = 0.35  # [m] rises up to this are steps, higher ones ledges
 
 
@@ -67,12 +68,26 @@ def _unreachable(site: Site, spawns: np.ndarray, forbidden: set[int], wanted: se
             tops.append(parts)
         elif is_wanted or not is_inside_solid(site, site.centre_of(int(parts[0]))):
             faults.append(_explained(site, barriers, words, here, parts, is_wanted))
+    faults = _shortened(words, faults)
     if tops:
         areas = [float(site.areas[parts].sum()) for parts in tops]
         place = site.centre_of(int(tops[int(np.argmax(areas))][0]))
         text = words.tops(place, len(tops), sum(areas), _TOP)
         faults.append(Fault("tops", triple(place), text, False, extent=sum(areas)))
     return faults
+
+
+def _shortened(words: Wording, faults: list[Fault]) -> list[Fault]:
+    """``faults``, with the smallest of many notes on what cannot be reached, such as the roofs of a city,
+    told in one."""
+    notes = [fault for fault in faults if fault.kind == "unreachable" and not fault.fails]
+    rest = sorted(notes, key=lambda fault: -fault.extent)[_TOLD:]
+    if len(rest) < 2:
+        return faults
+    area = sum(fault.extent for fault in rest)
+    text = words.more_unreachable(rest[0].position, len(rest), area, rest[0].extent)
+    kept = [fault for fault in faults if not any(fault is each for each in rest)]
+    return [*kept, Fault("unreachable", rest[0].position, text, False, extent=area)]
 
 
 def _first_missing(site: Site, reached: np.ndarray) -> Iterator[np.ndarray]:

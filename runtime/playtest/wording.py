@@ -69,6 +69,13 @@ class Wording:
             return f"{what}: nothing that can be reached is near it"
         return f"{what}: {self.barrier(barrier)}"
 
+    def more_unreachable(self, where: ArrayLike, count: int, area: float, largest: float) -> str:
+        """Parts like those that were told, but smaller."""
+        each = f"{count} more parts of up to {largest:.0f} m² each, {area:.0f} m² in all,"
+        return (
+            f"{each} cannot be reached either; larger ones are told one by one. The next is at {place(where)}"
+        )
+
     def barrier(self, barrier: Barrier) -> str:
         """What is in the way, how much of it, and what the body can do."""
         noun, rules = self.noun, self.character.rules

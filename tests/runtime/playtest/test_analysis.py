@@ -38,14 +38,14 @@ def test_what_is_as_it_should_be_is_no_fault(tmp_path, mesh):
 
 
 def test_of_many_notes_on_parts_out_of_reach_the_largest_are_told_and_the_others_counted():
-    pillars = [box(3 * x, 3 * x + 2 + 0.01 * x, 3 * y, 3 * y + 2, 0, 4) for x in range(6) for y in range(4)]
-    found = unreached(trimesh.util.concatenate([box(-3, 20, -3, 14, -0.2, 0), *pillars]))
+    pillars = [box(6 * x, 6 * x + 2, 6 * y, 6 * y + 2, 0, 4) for x in range(6) for y in range(4)]
+    found = unreached(trimesh.util.concatenate([box(-3, 36, -3, 24, -0.2, 0), *pillars]))
     notes = [fault for fault in found if fault.kind == "unreachable"]
     assert len(notes) == 21 and not any(fault.fails for fault in notes)
     (rest,) = (fault for fault in notes if "more parts" in fault.text)
     assert "4 more parts" in rest.text and rest.extent == pytest.approx(4 * 1.4**2, abs=1.5)
     assert rest.extent < 4.01 * min(fault.extent for fault in notes if fault is not rest)
-    few = unreached(trimesh.util.concatenate([box(-3, 20, -3, 14, -0.2, 0), *pillars[:21]]))
+    few = unreached(trimesh.util.concatenate([box(-3, 36, -3, 24, -0.2, 0), *pillars[:21]]))
     assert len([fault for fault in few if fault.kind == "unreachable"]) == 21
 
 

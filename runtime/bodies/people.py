@@ -7,7 +7,9 @@ from typing import Any
 
 import numpy as np
 
+import navmesh
 from locomotion import PERSON_RULES
+from locomotion.body.models import person_on
 from locomotion.body.traits import SIZE
 from locomotion.human.motion_start import moment_like, set_in_motion
 from locomotion.human.sized_human import SizedHuman, movements_of
@@ -145,6 +147,11 @@ class People(Population):
     def remember(self) -> None:
         for driver in self._drivers:
             driver.look.remember()
+
+    def foresee(self, graph: navmesh.NodeGraph) -> None:
+        level = Level.of(graph)
+        for size in {driver.body.size for driver in tuple(self._drivers)}:
+            person_on(level.ground_for(size))
 
     def change_level(self) -> None:
         self._pool.forget()

@@ -6,6 +6,7 @@ import pytest
 import navmesh
 from benchmarks.giving_way import floor
 from locomotion.clips import clip
+from locomotion.ground.ground import extruded
 from locomotion.rehearsal.lookahead import Lookahead
 from locomotion.skills.jump.skill import jump_clip
 from locomotion.skills.vault.skill import vault_clip
@@ -145,3 +146,16 @@ def test_one_that_was_spawned_has_read_and_made_what_it_will_need(people, monkey
     for skill in human.clearing:
         skill.approach(skill.heights[1])
     assert not made
+
+
+def test_bodies_for_another_level_are_made_before_it_comes(graph, people, monkeypatch):
+    usual, small = (people.spawn("human", np.array([x, 3.0, 0.0]), 0.0, 0.3) for x in (2.0, 4.0))
+    small.set_style({"size": 0.9})
+    other = graph.update({"step": navmesh.Terrain.from_arrays(*extruded([(7.0, 0.1), (8.0, 0.1)], 0.5))})
+    people.foresee(other)
+    monkeypatch.setattr("locomotion.body.models.build_person", None)  # nothing is made from here on
+    people._level.graph, people._level.ground = other, Level.of(other).ground
+    people.change_level()
+    assert (
+        usual.human.ground is people._level.ground and small.human.ground.high[0] > usual.human.ground.high[0]
+    )

@@ -16,12 +16,12 @@ from typing import Any, cast
 
 import numpy as np
 
-from locomotion.preconditions.features import FEATURES
+from locomotion.preconditions.precondition import features_of
 from locomotion.preconditions.svm import odds_exactly
 from locomotion.training.preconditions.fitting import (
-    MOST,
     Learning,
     Samples,
+    counting_features,
     fit_machine,
     ranked_features,
     samples_of,
@@ -74,14 +74,14 @@ def shown(name: str, odds: np.ndarray, samples: Samples) -> None:
     print(f"| {name} | {areas[0]:.3f} | {areas[1]:.3f} | {areas[2]:.3f} | {brier:.3f} |", flush=True)
 
 
-def machine_odds(samples: Samples, part: np.ndarray, share: float = 1.0) -> np.ndarray:
+def machine_odds(skill: str, samples: Samples, part: np.ndarray, share: float = 1.0) -> np.ndarray:
     """Cross-validated odds of the machine, its features chosen anew in each part, learned from a ``share`` of
     the starts."""
     odds = np.zeros(len(part))
     for k in range(PARTS):
         seen = (part != k) & (samples.start < share * (samples.start.max() + 1))
         learned = samples.part(seen)
-        ranked = ranked_features(learned, 0)[:MOST]
+        ranked = counting_features(skill, learned)
         odds[part == k] = odds_exactly(fit_machine(learned, ranked, 0), samples.features[part == k])
     return odds
 
@@ -97,7 +97,7 @@ def compare(file: Path) -> None:
     )
     print("| learned by | AUC, all sizes | sizes to clear | of these at take-off | Brier |")
     print("| --- | --- | --- | --- | --- |")
-    shown("machine", machine_odds(samples, part), samples)
+    shown("machine", machine_odds(outcomes.skill, samples, part), samples)
     inputs = {"": samples.features, ", whole state": whole_state(outcomes)[outcomes.learned_from]}
     for name, model in estimators(0).items():
         for more, features in inputs.items():
@@ -111,9 +111,13 @@ def compare(file: Path) -> None:
                     decided[part == k] = np.log(chance / (1.0 - chance))
             shown(f"{name}{more}", sigmoid(decided, samples.holds), samples)
     for share in (0.5, 0.25, 0.125):
-        shown(f"machine, {share * starts:.0f} starts", machine_odds(samples, part, share), samples)
+        shown(
+            f"machine, {share * starts:.0f} starts",
+            machine_odds(outcomes.skill, samples, part, share),
+            samples,
+        )
     ranked = ranked_features(samples, 0)[:8]
-    print("what counts:", ", ".join(f"{FEATURES[k]} {counts:.3f}" for k, counts in ranked))
+    print("what counts:", ", ".join(f"{features_of(outcomes.skill)[k]} {counts:.3f}" for k, counts in ranked))
 
 
 def main() -> None:

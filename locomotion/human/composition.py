@@ -19,9 +19,10 @@ from locomotion.gaits.run import controller
 from locomotion.ground.ground import FRICTION
 from locomotion.human.person import Person
 from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.preconditions.changes import SLOW_DOWN, changing, describe_change
 from locomotion.preconditions.features import FEATURES, before_run_up, describe, site_of
 from locomotion.preconditions.moments import planned
-from locomotion.preconditions.precondition import SLOW_DOWN, Precondition, load_preconditions
+from locomotion.preconditions.precondition import Precondition, load_preconditions
 from locomotion.rehearsal.choices import BALKINGS, RUN_UPS
 from locomotion.skills.interface import ClearingSkill, distance_to
 from locomotion.skills.library import comes_with_package
@@ -158,7 +159,7 @@ class Composition:
         slowings = [each for each in BALKINGS if left >= _WAY + _PER_DECELERATION / each + _MARGIN]
         if not slowings:
             return
-        holds = self._odds_of_slowing(obstacle, slowings)
+        holds = self._odds_of_slowing(slowings)
         best = int(np.argmax(holds))
         is_last = left - _STEP < _WAY + _PER_DECELERATION / max(slowings) + _MARGIN
         if holds[best] < _SURE and not (is_last and holds[best] > odds):
@@ -166,9 +167,7 @@ class Composition:
         person.events.append(TurnedAway(person.time, person.point, obstacle.affordance, obstacle.size, odds))
         person.balk(slowings[best])
 
-    def _odds_of_slowing(self, obstacle: ObstacleAhead, slowings: list[float]) -> NDArray[np.float64]:
+    def _odds_of_slowing(self, slowings: list[float]) -> NDArray[np.float64]:
         """(k,) odds of walking on after having slowed down, for each of ``slowings`` [m/s²]."""
-        choice = self._person.run_up.plan[[FARTHER, FASTER]]
-        rows = np.repeat(self._described(obstacle, choice[None]), len(slowings), axis=0)
-        rows[:, FEATURES.index("farther")] = slowings
-        return self._known[SLOW_DOWN].odds(rows)
+        choices = np.array([(each, 0.0) for each in slowings])
+        return self._known[SLOW_DOWN].odds(describe_change(changing(self._person, 0.0, self.grip), choices))

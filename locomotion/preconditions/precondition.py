@@ -16,6 +16,7 @@ from locomotion.body.learned_file import SkillHeader, learned_numbers, read_skil
 from locomotion.body.person import person_digest
 from locomotion.data import PRECONDITIONS
 from locomotion.errors import LocomotionError
+from locomotion.preconditions.changes import CHANGE_FEATURES, CHANGES
 from locomotion.preconditions.features import BEFORE, FEATURES
 from locomotion.preconditions.svm import Machine, odds_into
 from locomotion.skills.interface import covers
@@ -25,12 +26,10 @@ from surefoot.files.archive import write_archive
 from surefoot.files.schema import Indices, Numbers, Schema
 
 __all__ = [
-    "PRECONDITION_FILE", "SLOW_DOWN", "Precondition", "load_precondition", "load_preconditions",
+    "PRECONDITION_FILE", "Precondition", "features_of", "load_precondition", "load_preconditions",
     "outdated_preconditions", "precondition_file", "skill_and_run",
 ]  # fmt: skip
 
-SLOW_DOWN = "slow-down"
-"""Breaking a run-up off, by slowing down to a walk; its choice is the deceleration [m/s²]."""
 _SMALLEST = 1e-9
 
 
@@ -39,9 +38,10 @@ class Precondition:
     """The odds that a skill holds.
 
     Attributes:
-        skill: which, as missions call it. heights: least and greatest size [m] that it has learned.
-        run_up: asked at each step of a run-up, of `features.FEATURES`. before: asked before it, of
-            `features.BEFORE`; None of what is only done in a run-up.
+        skill: which, as missions call it, or one of `changes.CHANGES`. heights: least and greatest size [m]
+            that it has learned; 0 of a change.
+        run_up: asked at each step of a run-up, of `features.FEATURES`, or before a change, of
+            `changes.CHANGE_FEATURES`. before: asked before a run-up, of `features.BEFORE`; None of a change.
         digest: of the skill and the run that it was learned on.
         meta: what made it.
     """
@@ -65,7 +65,7 @@ class Precondition:
         return self._ask(self.before, features)
 
     def odds(self, features: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(k,) odds, 0 to 1, at moments of a run-up described by ``features`` (k, n)."""
+        """(k,) odds, 0 to 1, at moments of a run-up, or before a change, described by ``features`` (k, n)."""
         return self._ask(self.run_up, features)
 
     @staticmethod
@@ -84,8 +84,8 @@ class Precondition:
         }
         header = {
             "person": person_digest(), "skill": self.skill, "heights": list(self.heights),
-            "digest": self.digest, "before": self.before is not None, "features": list(FEATURES),
-            "meta": self.meta,
+            "digest": self.digest, "before": self.before is not None, "meta": self.meta,
+            "features": list(features_of(self.skill)),
         }  # fmt: skip
         write_archive(path, PRECONDITION_FILE.kind, PRECONDITION_FILE.version, header, arrays)
 
@@ -114,11 +114,15 @@ def _machine(name: str, features: tuple[str, ...]) -> dict[str, Any]:
 
 def _arrays(header: _PreconditionHeader) -> dict[str, Any]:
     before = _machine("before", BEFORE) if header.before else {}
-    return _machine("run_up", FEATURES) | before
+    return _machine("run_up", features_of(header.skill)) | before
 
 
 def _check(header: _PreconditionHeader, arrays: dict[str, NDArray[Any]]) -> str | None:
-    return None if header.features == FEATURES else "was learned of other features than this release's"
+    return (
+        None
+        if header.features == features_of(header.skill)
+        else "was learned of other features than this release's"
+    )
 
 
 PRECONDITION_FILE = Schema(
@@ -131,9 +135,15 @@ PRECONDITION_FILE = Schema(
 )
 
 
+def features_of(skill: str) -> tuple[str, ...]:
+    """What the odds of a ``skill`` or a change are asked of."""
+    return CHANGE_FEATURES if skill in CHANGES else FEATURES
+
+
 def skill_and_run(skill: str) -> str:
-    """Hex digest of one of the package's skills and of the run under it, as their files are now."""
-    return f"{skill_digest(skill)}{skill_digest('run')}"
+    """Hex digest of one of the package's skills, or of what a change is made of, and of the run under it, as
+    their files are now."""
+    return f"{skill_digest(CHANGES.get(skill, skill))}{skill_digest('run')}"
 
 
 def precondition_file(skill: str) -> Path:
@@ -161,9 +171,9 @@ def outdated_preconditions() -> list[str]:
     """Skills of the package whose precondition belongs to another skill, or another run under it, than
     theirs are now."""
     outdated = []
-    for skill in (*(kind.skill for kind in skill_kinds()), SLOW_DOWN):
-        file = precondition_file(skill)
-        if file.exists() and package_skill(skill).exists() and package_skill("run").exists():
+    for skill in (*(kind.skill for kind in skill_kinds()), *CHANGES):
+        file, made_of = precondition_file(skill), package_skill(CHANGES.get(skill, skill))
+        if file.exists() and made_of.exists() and package_skill("run").exists():
             if read_skill(file, PRECONDITION_FILE)[0].digest != skill_and_run(skill):
                 outdated.append(skill)
     return outdated
@@ -171,8 +181,8 @@ def outdated_preconditions() -> list[str]:
 
 @lru_cache(maxsize=1)
 def load_preconditions() -> Mapping[str, Precondition]:
-    """The package's preconditions by affordance, of those skills that have one, and of `SLOW_DOWN`. Read
+    """The package's preconditions by affordance, of those skills that have one, and of all `CHANGES`. Read
     once; raises `LocomotionError` as `load_precondition` does."""
     files = {kind.affordance: precondition_file(kind.skill) for kind in skill_kinds()}
     known = {asked: load_precondition(file) for asked, file in files.items() if file.exists()}
-    return known | {SLOW_DOWN: load_precondition(precondition_file(SLOW_DOWN))}
+    return known | {name: load_precondition(precondition_file(name)) for name in CHANGES}

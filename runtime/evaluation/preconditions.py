@@ -24,7 +24,8 @@ MOMENTS = {
     "1 or 2 steps left": (1, 2),
     "at take-off": (0, 0),
 }
-"""When the odds are asked: steps that are left."""
+"""When the odds of a skill are asked: steps that are left."""
+BEFORE_CHANGE = {"before the change": (0, 0)}
 
 
 @dataclass(frozen=True)
@@ -88,19 +89,18 @@ def bins_of(odds: NDArray[np.float64], holds: NDArray[np.bool_]) -> list[Bin]:
 
 
 def judge(precondition: Precondition, outcomes: Outcomes) -> tuple[list[Judgement], list[Bin]]:
-    """Judge a precondition by ``outcomes`` of its skill: at each of `MOMENTS`, over all sizes and over those
-    that people are to clear; and its reliability in all run-ups."""
-    samples, before, found = samples_of(outcomes), samples_before(outcomes), []
+    """Judge a precondition by ``outcomes`` of its skill: before a change, or at each of `MOMENTS`,
+    over all sizes and over those that people are to clear; and its reliability in all run-ups."""
+    samples, found = samples_of(outcomes), []
     odds = precondition.odds(samples.features)
-    at_first = np.zeros(0) if precondition.before is None else precondition.odds_before(before.features)
-    for moment, steps in MOMENTS.items():
-        if steps is None and precondition.before is None:
-            continue
+    for moment, steps in (BEFORE_CHANGE if precondition.before is None else MOMENTS).items():
+        asked, at = odds, samples
         if steps is None:
-            asked, at, then = at_first, before, np.ones(len(at_first), dtype=bool)
+            at = samples_before(outcomes)
+            asked, then = precondition.odds_before(at.features), np.ones(len(at.holds), dtype=bool)
         else:
-            asked, at, then = odds, samples, (samples.steps >= steps[0]) & (samples.steps <= steps[1])
-        for within in (False, True):
+            then = (samples.steps >= steps[0]) & (samples.steps <= steps[1])
+        for within in (False,) if precondition.before is None else (False, True):
             chosen = then & at.within if within else then
             if chosen.any():
                 found.append(judged(precondition.skill, moment, within, asked[chosen], at.holds[chosen]))

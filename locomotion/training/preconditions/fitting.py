@@ -18,14 +18,16 @@ from numpy.typing import NDArray
 
 from locomotion.errors import LocomotionError
 from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.preconditions.changes import CHANGES, CHOICES, Changing, describe_change
 from locomotion.preconditions.features import BEFORE, FEATURES, before_run_up, describe, site_of
-from locomotion.preconditions.precondition import SLOW_DOWN, Precondition, skill_and_run
+from locomotion.preconditions.precondition import Precondition, features_of, skill_and_run
 from locomotion.preconditions.svm import Machine, decide_exactly
 from locomotion.training.preconditions.outcomes import STARTS, Outcomes, kind_for
 
 __all__ = [
     "Learning",
     "Samples",
+    "counting_features",
     "fit_machine",
     "fit_precondition",
     "ranked_features",
@@ -39,10 +41,6 @@ _CENTRES, _CENTRES_BEFORE = 128, 48
 _GAMMA, _COST = 0.05, 1.0
 _LEAST_WEIGHT, _MOST_WEIGHT = 0.3, 2.0  # of a feature, against the fourth best
 _FOLDS, _SEED = 4, 0
-_OF_OBSTACLE = (
-    "size", "depth", "faster", "steps left", "early", "missing speed", "foot distance", "height over edge",
-)  # fmt: skip
-# what does not matter for slowing down before it
 
 
 @dataclass(frozen=True)
@@ -65,6 +63,20 @@ class Samples:
         )  # fmt: skip
 
 
+def samples_of_change(outcomes: Outcomes) -> Samples:
+    """The moments before a change, one of each start that came to one."""
+    moments, start = outcomes.moments, outcomes.start_of
+    told = (
+        moments[name].astype(np.float64) for name in ("state", "plan", "beside", "qpos", "qvel", "variation")
+    )
+    rows = [
+        describe_change(Changing(state, plan, float(beside[0]), qpos, qvel), choice[None])[0]
+        for state, plan, beside, qpos, qvel, choice in zip(*told, strict=True)
+    ]
+    every = np.ones(len(start), dtype=bool)
+    return Samples(np.array(rows), outcomes.ends[start] == 0, start, every, np.zeros_like(start))
+
+
 def _sites(outcomes: Outcomes) -> NDArray[np.float64]:
     kind = kind_for(outcomes.skill)
     sites = []
@@ -79,7 +91,10 @@ def _sites(outcomes: Outcomes) -> NDArray[np.float64]:
 
 
 def samples_of(outcomes: Outcomes) -> Samples:
-    """The moments of all run-ups, but those before a push and of people who never took off."""
+    """The moments of all run-ups, but those before a push and of people who never took off; of a change those
+    before it."""
+    if outcomes.skill in CHANGES:
+        return samples_of_change(outcomes)
     sites, moments, start = _sites(outcomes), outcomes.moments, outcomes.start_of
     state, plan = moments["state"].astype(np.float64), moments["plan"].astype(np.float64)
     variation, beside = moments["variation"].astype(np.float64), moments["beside"].astype(np.float64)
@@ -121,6 +136,15 @@ def ranked_features(samples: Samples, seed: int) -> list[tuple[int, float]]:
     return [(int(k), float(found[k])) for k in np.argsort(-found, kind="stable")]
 
 
+def counting_features(skill: str, samples: Samples) -> list[tuple[int, float]]:
+    """The `MOST` best of `ranked_features`; of a change first what is chosen, if anything is."""
+    ranked = ranked_features(samples, _SEED)
+    if skill in CHANGES:
+        varies = np.ptp(samples.features, axis=0) > 0.0
+        ranked.sort(key=lambda each: each[0] >= len(CHOICES) or not varies[each[0]])
+    return ranked[:MOST]
+
+
 def fit_machine(
     samples: Samples, ranked: list[tuple[int, float]], seed: int, centres: int = _CENTRES
 ) -> Machine:
@@ -156,30 +180,27 @@ def _uncalibrated(samples: Samples, ranked: list[tuple[int, float]], seed: int, 
 def fit_precondition(outcomes: Outcomes) -> Precondition:
     """The precondition of a skill. Raises `LocomotionError` without scikit-learn, or if there are too few
     outcomes, or only of one sort."""
-    skill = outcomes.skill
-    samples, before = samples_of(outcomes), samples_before(outcomes)
+    samples = samples_of(outcomes)
+    before = None if outcomes.skill in CHANGES else samples_before(outcomes)
     for each in (samples, before):
-        if len(each.holds) < 20 or each.holds.all() or not each.holds.any():
-            raise LocomotionError(f"too few outcomes of {skill} to learn from; sample more starts")
+        if each is not None and (len(each.holds) < 20 or each.holds.all() or not each.holds.any()):
+            raise LocomotionError(f"too few outcomes of {outcomes.skill} to learn from; sample more starts")
     with Learning().one_thread():
         return _fitted(outcomes, samples, before)
 
 
-def _fitted(outcomes: Outcomes, samples: Samples, before: Samples) -> Precondition:
-    skill, ranked = outcomes.skill, ranked_features(samples, _SEED)
-    if skill == SLOW_DOWN:
-        ranked = [each for each in ranked if FEATURES[each[0]] not in _OF_OBSTACLE]
-        ranked.sort(key=lambda each: FEATURES[each[0]] != "farther")  # first what it chooses
-    ranked = ranked[:MOST]
+def _fitted(outcomes: Outcomes, samples: Samples, before: Samples | None) -> Precondition:
+    skill = outcomes.skill
+    names, ranked = features_of(skill), counting_features(skill, samples)
     meta = {
         "starts": len(outcomes.ends), "seed": outcomes.header["seed"],
         "holds": round(float((outcomes.ends == 0).mean()), 4),
-        "features": {FEATURES[k]: round(counts, 4) for k, counts in ranked},
+        "features": {names[k]: round(counts, 4) for k, counts in ranked},
     }  # fmt: skip
     sizes = [(k, 1.0) for k in range(len(BEFORE))]
     return Precondition(
-        skill, kind_for(skill).sizes, fit_machine(samples, ranked, _SEED),
-        None if skill == SLOW_DOWN else fit_machine(before, sizes, _SEED, _CENTRES_BEFORE),
+        skill, (0.0, 0.0) if before is None else kind_for(skill).sizes, fit_machine(samples, ranked, _SEED),
+        None if before is None else fit_machine(before, sizes, _SEED, _CENTRES_BEFORE),
         skill_and_run(skill), meta,
     )  # fmt: skip
 

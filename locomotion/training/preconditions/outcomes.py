@@ -15,14 +15,15 @@ from numpy.typing import NDArray
 from locomotion.body.person import person_digest
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run.layout import STATE_SIZE
+from locomotion.preconditions.changes import CHANGES, SLOW_DOWN
 from locomotion.preconditions.moments import PLAN
-from locomotion.preconditions.precondition import SLOW_DOWN
 from locomotion.skills.jump.kind import JUMP
 from locomotion.skills.kind import SkillKind
 from locomotion.skills.library import skills_digest
 from locomotion.skills.registry import skill_called
+from locomotion.training.preconditions.changes import try_change
 from locomotion.training.preconditions.sampling import ENDS, Outcome, try_slow_down, try_start
-from locomotion.training.preconditions.starts import draw_slow_down, draw_start
+from locomotion.training.preconditions.starts import draw_change, draw_slow_down, draw_start
 from surefoot.files.archive import ArchiveError, check_target, read_archive, write_archive
 from surefoot.files.schema import Flags, Header, Indices, Numbers, Offsets, Schema
 from surefoot.progress import Progress
@@ -100,8 +101,9 @@ _FILE = Schema(
 
 
 def kind_for(skill: str) -> SkillKind:
-    """The obstacles at which ``skill`` is tried. Raises `LocomotionError` for an unknown one."""
-    return JUMP if skill == SLOW_DOWN else skill_called(skill)
+    """The obstacles at which ``skill`` is tried, of a change those at which it may be. Raises
+    `LocomotionError` for an unknown one."""
+    return JUMP if skill in CHANGES else skill_called(skill)
 
 
 def read_outcomes(path: str | os.PathLike[str]) -> Outcomes:
@@ -181,12 +183,15 @@ def _begin(header: dict[str, Any]) -> None:
 
 
 def _try(block: range) -> Outcomes:
-    """A block of starts; each is drawn from its own number."""
+    """A block of starts; each is drawn from its own number. Every other one that slows down does so in a
+    run-up."""
     skill, made = _header["skill"], []
     for number in block:
         rng = np.random.default_rng([_header["seed"], number])
-        if skill == SLOW_DOWN:
+        if skill == SLOW_DOWN and number % 2:
             made.append(try_slow_down(draw_slow_down(rng), rng))
+        elif skill in CHANGES:
+            made.append(try_change(skill, draw_change(skill, rng), rng))
         else:
             kind = skill_called(skill)
             made.append(try_start(kind, draw_start(kind, rng), rng))
@@ -196,7 +201,8 @@ def _try(block: range) -> Outcomes:
 def _table(made: list[Outcome], header: dict[str, Any]) -> Outcomes:
     starts = [
         [each.start.size, each.start.depth, each.start.distance, each.start.speed, each.start.friction,
-         each.start.running, each.start.noise, each.start.push_ticks > 0, each.obstacle.position[2]]
+         each.start.running, each.start.noise, each.start.push_ticks > 0,
+         0.0 if each.obstacle is None else each.obstacle.position[2]]
         for each in made
     ]  # fmt: skip
     noted = [row for each in made for row in each.noted]

@@ -15,6 +15,7 @@ from locomotion.ground.ground import FRICTION, Ground
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
 from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.preconditions.changes import changing
 from locomotion.preconditions.moments import Moment, make_slippery, planned
 from locomotion.rehearsal.trials import clears
 from locomotion.skills.course import make_course
@@ -24,11 +25,18 @@ from locomotion.skills.kind import SkillKind
 from locomotion.skills.run_up_layout import FARTHER, FASTER
 from locomotion.training.preconditions.starts import Start
 
-__all__ = ["ENDS", "Noted", "Outcome", "WiderSkill", "try_slow_down", "try_start"]
+__all__ = ["ENDS", "Noted", "Outcome", "WiderSkill", "noted_change", "try_slow_down", "try_start"]
 
-ENDS = ("holds", "did not take off", "fell in the run-up", "fell in the skill", "fell behind it")
-"""How an attempt ends. It holds if the body clears the obstacle and stays up behind it, as in a rehearsal
-(`locomotion.rehearsal.trials.clears`)."""
+ENDS = (
+    "holds",
+    "did not take off",
+    "fell in the run-up",
+    "fell in the skill",
+    "fell behind it",
+    "does not hold",
+)
+"""How an attempt ends; the last is of changes of gait and getting up. A skill holds if the body clears the
+obstacle and stays up behind it, as in a rehearsal (`locomotion.rehearsal.trials.clears`)."""
 _WAITS = 1500  # ticks within which it is in its run-up
 _WALKS = 200  # ticks that it has to walk on after it has slowed down
 _DECELERATES = 0.5  # what a variation of a mark [m] never is, and a deceleration [m/s²] always
@@ -87,10 +95,10 @@ class Noted(NamedTuple):
 @dataclass
 class Outcome:
     """What came of a start: one of `ENDS`; whether it touched nothing that it should not; the moments of its
-    run-up; the obstacle."""
+    run-up, or the one before a change; the obstacle, None without one."""
 
     start: Start
-    obstacle: ObstacleAhead
+    obstacle: ObstacleAhead | None
     end: str = ""
     clean: bool = False
     noted: list[Noted] = field(default_factory=list)
@@ -127,9 +135,7 @@ def try_slow_down(start: Start, rng: np.random.Generator) -> Outcome:
     if not outcome.noted or attempt.took_off:
         outcome.end, outcome.noted = ENDS[1], []
         return outcome
-    noted = outcome.noted[0]
-    moment = noted.moment._replace(variation=np.array(start.variation))
-    outcome.noted[0] = noted._replace(moment=moment, unforeseen=False)
+    outcome.noted = [noted_change(human, start.variation, 0.0, start.friction)]
     human.data.xfrc_applied[:] = 0.0
     human.balk(start.variation[0])
     walked = 0
@@ -138,9 +144,17 @@ def try_slow_down(start: Start, rng: np.random.Generator) -> Outcome:
         walked = walked + 1 if human.gait_now == "walk" else 0
         if human.status == "fallen" or walked > _WALKS:
             break
-    outcome.end = ENDS[0] if walked > _WALKS else ENDS[2]
+    outcome.end = ENDS[0] if walked > _WALKS else ENDS[5]
     outcome.clean = walked > _WALKS
     return outcome
+
+
+def noted_change(human: Human, choice: tuple[float, float], asked: float, grip: float) -> Noted:
+    """The moment before a change; arguments as of `preconditions.changes.changing`, ``choice``: what it will
+    do."""
+    body = changing(human, asked, grip)
+    moment = Moment(body.state, body.plan, np.array(choice), body.beside)
+    return Noted(moment, False, False, body.qpos, body.qvel)
 
 
 def _begin(kind: SkillKind, start: Start, rng: np.random.Generator) -> tuple[Human, Outcome]:
@@ -217,10 +231,9 @@ class _Attempt:
             self.runs_up = True
 
     def _note(self, off: bool) -> None:
-        human, run_up = self._human, self._human.run_up
-        plan = planned(
-            human.control, self._outcome.obstacle, run_up.skill, human.on_feet.run_skill, run_up.plan, off
-        )
+        human, run_up, obstacle = self._human, self._human.run_up, self._outcome.obstacle
+        assert obstacle is not None
+        plan = planned(human.control, obstacle, run_up.skill, human.on_feet.run_skill, run_up.plan, off)
         moment = Moment(
             human.control.copy(), plan, run_up.plan[[FARTHER, FASTER]].copy(), human.lateral_error
         )

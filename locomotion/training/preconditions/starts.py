@@ -9,14 +9,20 @@ import numpy as np
 
 from locomotion.body.person import CONTROL_DT
 from locomotion.ground.ground import FRICTION
+from locomotion.preconditions.changes import BRAKE, END_RUN, GET_UP, SLOW_DOWN, WALK_TO_RUN
 from locomotion.skills.jump.kind import JUMP
 from locomotion.skills.kind import SkillKind
 from locomotion.training.skills.vault import DEPTHS
 
-__all__ = ["Start", "draw_slow_down", "draw_start"]
+__all__ = ["Start", "draw_change", "draw_slow_down", "draw_start"]
 
 DISTANCES = (5.0, 16.0)
 """[m] from the start to the edge."""
+_WALKED, _RUN = (2.5, 6.0), (3.0, 10.0)  # [m] to a change of gait, walking and running
+_PUSHED_BEFORE = 2.5  # [m] before a change at most
+_AHEAD = 0.5  # [m/s] by which a run's reference begins faster than the walk at most
+_HARD, _HARD_PUSHES = 0.8, (200.0, 1000.0)  # share of those who are pushed before a run ends as learned; [N]
+_HARDER = (0.9, 2.8)  # times the learned deceleration of braking
 _BEYOND, _LOWER = 0.25, 0.3  # share of sizes out of the range; of these, below it
 _STANDING, _PUSHED, _OTHER_GROUND, _SHAKEN, _VARIED = 0.65, 0.3, 0.4, 0.4, 0.7
 # shares of starts: from a stand; pushed; on other than usual ground; with more than usual noise; with a
@@ -35,11 +41,12 @@ _DECELERATIONS, _LAST_STEP = (0.6, 3.0), 8  # [m/s²] tried; of the run-up to a 
 class Start:
     """A start.
 
-    size, depth [m]: of the obstacle. distance [m] to its edge. speed [m/s] asked for. friction: of the
-    ground. running: speed [m/s] at the start, 0 from a stand. beside [m], askew [rad]: off its path.
-    noise [m/s, rad/s]: standard deviation of the velocities. push_at: [m] before the edge, push: [N] forward
-    and to the left for ``push_ticks``. variation: farther mark [m] and faster entry [m/s], from that step of
-    the run-up on; or deceleration [m/s²] with which it slows down there, and 0.
+    size, depth [m]: of the obstacle. distance [m] to its edge, or to a change of gait. speed [m/s] asked
+    for. friction: of the ground. running: speed [m/s] at the start, 0 from a stand. beside [m], askew [rad]:
+    off its path. noise [m/s, rad/s]: standard deviation of the velocities. push_at: [m] before the edge,
+    push: [N] forward and to the left for ``push_ticks``. variation: farther mark [m] and faster entry [m/s],
+    from that step of the run-up on; or deceleration [m/s²] with which it slows down there, and 0; or what
+    else a change chooses (`preconditions.changes.CHANGE_FEATURES`).
     """
 
     size: float
@@ -98,3 +105,26 @@ def draw_slow_down(rng: np.random.Generator) -> Start:
     start = draw_start(JUMP, rng)
     step, deceleration = int(rng.integers(0, _LAST_STEP)), float(rng.uniform(*_DECELERATIONS))
     return replace(start, size=JUMP.usual, variation=(deceleration, 0.0), from_step=step)
+
+
+def draw_change(name: str, rng: np.random.Generator) -> Start:
+    """Draw a start of a change on level ground, one of `preconditions.changes.CHANGES`."""
+    start = draw_start(JUMP, rng)
+    spread, running, way = rng.random(2), rng.uniform(*_RUNNING), rng.random()
+    walks = name == WALK_TO_RUN or (name == GET_UP and spread[1] < 0.5)
+    low, high = _WALKED if walks else _RUN
+    choice, push, pushed = (0.0, 0.0), start.push, start.push_ticks > 0 or name == GET_UP
+    if name == WALK_TO_RUN:
+        choice = (float(spread[0] < 0.5), round(max(_AHEAD * (2.0 * float(spread[1]) - 1.0), 0.0), 3))
+    elif name in (SLOW_DOWN, BRAKE):
+        least, most = _DECELERATIONS if name == SLOW_DOWN else _HARDER
+        choice = (round(least + (most - least) * float(spread[0]), 3), 0.0)
+    elif name == END_RUN:  # what ends it holds nearly always, unless it is pushed hard
+        force, side, pushed = rng.uniform(*_HARD_PUSHES), rng.uniform(-math.pi, math.pi), spread[0] < _HARD
+        push = (float(force * math.cos(side)), float(force * math.sin(side))) if pushed else (0.0, 0.0)
+    return replace(
+        start, size=JUMP.usual, distance=round(low + (high - low) * float(way), 3), variation=choice,
+        running=0.0 if walks else round(float(running), 2),
+        push_at=_PUSHED_BEFORE * start.push_at / _PUSH_AT[1],
+        push=push, push_ticks=round(_PUSH_TIME / CONTROL_DT) if pushed else 0,
+    )  # fmt: skip

@@ -142,7 +142,7 @@ def _sampled(name: str) -> str:
 def sample(
     skill: Annotated[
         str,
-        typer.Argument(parser=_sampled, metavar="SKILL", help="A skill for obstacles, or slow-down."),
+        typer.Argument(parser=_sampled, metavar="SKILL", help="A skill for obstacles, or a change of gait."),
     ],
     output: Annotated[Path, typer.Option("--output", "-o", help="Output file (.npz).")],
     count: Annotated[int, typer.Option(min=1, help="Number of starts.")] = 1000,

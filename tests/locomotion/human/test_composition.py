@@ -10,7 +10,8 @@ import pytest
 from locomotion import MOVING, Ground, Human, LocomotionError
 from locomotion.body_events import Cleared, GotStuck, TookOff, TurnedAway, WentBack
 from locomotion.gaits.run.skill import load_run_skill
-from locomotion.preconditions.precondition import SLOW_DOWN, load_preconditions
+from locomotion.preconditions.changes import SLOW_DOWN
+from locomotion.preconditions.precondition import load_preconditions
 from locomotion.skills.course import make_course
 from locomotion.skills.learned_skill import LearnedSkill
 from locomotion.training.preconditions.sampling import WiderSkill

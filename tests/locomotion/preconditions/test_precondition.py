@@ -6,13 +6,9 @@ import numpy as np
 import pytest
 
 from locomotion import LocomotionError
+from locomotion.preconditions.changes import BRAKE, CHANGE_FEATURES, CHANGES, SLOW_DOWN, WALK_TO_RUN
 from locomotion.preconditions.features import FEATURES, SITE, before_run_up
-from locomotion.preconditions.precondition import (
-    SLOW_DOWN,
-    load_precondition,
-    load_preconditions,
-    precondition_file,
-)
+from locomotion.preconditions.precondition import load_precondition, load_preconditions, precondition_file
 
 
 def site(size, depth=0.3):
@@ -28,7 +24,17 @@ def test_a_file_holds_the_whole_precondition(tmp_path):
     assert (first.odds(asked) == again.odds(asked)).all()
     before = before_run_up(site(0.8), 12.0)[None]
     assert (first.odds_before(before) == again.odds_before(before)).all()
-    assert load_precondition(precondition_file(SLOW_DOWN)).before is None
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_changes_are_asked_of_features_of_their_own(tmp_path, change):
+    first = load_preconditions()[change]
+    first.save(tmp_path / "change.npz")
+    again = load_precondition(tmp_path / "change.npz")
+    asked = np.random.default_rng(0).normal(size=(4, len(CHANGE_FEATURES)))
+    chosen = {WALK_TO_RUN: {0, 1}, SLOW_DOWN: {0}, BRAKE: {0}}.get(change, set())
+    assert first.before is None and set(first.run_up.columns[: len(chosen)].tolist()) == chosen
+    assert (first.odds(asked) == again.odds(asked)).all()
 
 
 def test_one_of_another_skill_is_refused(tmp_path):

@@ -27,7 +27,7 @@ def test_a_skill_is_sampled_into_a_file(capsys, tmp_path):
     told = json.loads(out)
     assert code == 0 and sum(told["ends"].values()) == 1 and (tmp_path / "jump.npz").exists()
     code, _, err = surefoot(capsys, "sample", "fly", "-o", tmp_path / "fly.npz")
-    assert code == 2 and "jump, vault, drop-roll, leap, slow-down" in err.replace("\n", " ")
+    assert code == 2 and "jump, vault, drop-roll, leap, walk-to-run" in err.replace("\n", " ")
 
 
 def test_the_built_in_ones_are_not_overwritten_by_accident(capsys, tmp_path, monkeypatch):

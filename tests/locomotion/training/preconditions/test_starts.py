@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from locomotion.preconditions.changes import BRAKE, CHANGES, GET_UP, WALK_TO_RUN
 from locomotion.skills.registry import skill_called
-from locomotion.training.preconditions.starts import draw_slow_down, draw_start
+from locomotion.training.preconditions.starts import draw_change, draw_slow_down, draw_start
 
 
 def test_starts_cover_what_is_easy_and_what_is_hopeless():
@@ -22,3 +23,13 @@ def test_starts_cover_what_is_easy_and_what_is_hopeless():
 def test_a_run_up_is_broken_off_at_the_usual_stair():
     start = draw_slow_down(np.random.default_rng(2))
     assert start.size == 0.4 and 0.6 <= start.variation[0] <= 3.0 and 0 <= start.from_step < 8
+
+
+def test_changes_are_chosen_all_over_their_ranges():
+    drawn = {name: [draw_change(name, np.random.default_rng([3, k])) for k in range(200)] for name in CHANGES}
+    assert all(each.running == 0.0 for each in drawn[WALK_TO_RUN])
+    assert 0.4 < np.mean([each.variation[0] for each in drawn[WALK_TO_RUN]]) < 0.6
+    harder = np.array([each.variation[0] for each in drawn[BRAKE]])
+    assert 0.9 <= harder.min() < 1.1 and 2.6 < harder.max() <= 2.8
+    assert all(2.2 <= each.running <= 4.4 for each in drawn[BRAKE])
+    assert all(each.push_ticks > 0 for each in drawn[GET_UP])

@@ -1,4 +1,4 @@
-"""Changes of gait and getting up: what their odds depend on, from the physical state just before them.
+"""Changes of gait: what their odds depend on, from the physical state just before them.
 
 Everything sideways is mirrored, so that the stance foot is the left one.
 """
@@ -17,17 +17,16 @@ from locomotion.human.person import Person
 from locomotion.paths.command import HEADING_ASKED
 
 __all__ = [
-    "BRAKE", "CHANGES", "CHANGE_FEATURES", "CHOICES", "END_RUN", "GET_UP", "SLOW_DOWN", "WALK_TO_RUN",
+    "BRAKE", "CHANGES", "CHANGE_FEATURES", "CHOICES", "END_RUN", "SLOW_DOWN", "WALK_TO_RUN",
     "Changing", "changing", "describe_change",
 ]  # fmt: skip
 
-WALK_TO_RUN, SLOW_DOWN, BRAKE, END_RUN, GET_UP = "walk-to-run", "slow-down", "brake", "end-run", "get-up"
+WALK_TO_RUN, SLOW_DOWN, BRAKE, END_RUN = "walk-to-run", "slow-down", "brake", "end-run"
 CHANGES = {
     WALK_TO_RUN: "speed-up",
     SLOW_DOWN: "slow-down",
     BRAKE: "brake",
     END_RUN: "walk-policy",
-    GET_UP: "walk",
 }
 """Changes that have preconditions, and the package's skill that each is made of."""
 CHOICES = ("choice", "second choice")

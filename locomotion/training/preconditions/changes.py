@@ -1,12 +1,9 @@
-"""Trying changes of gait and getting up, from many states on level ground."""
+"""Trying changes of gait, from many states on level ground."""
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from locomotion.body_events import GotUp
 from locomotion.gaits.limits import SHORT_ENTRY, run_entry_speed
 from locomotion.gaits.policy.skill import load_policy
 from locomotion.gaits.run.layout import STEP_TIME
@@ -14,7 +11,7 @@ from locomotion.ground.ground import FRICTION, Ground
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
 from locomotion.paths.command import HEADING_ASKED
-from locomotion.preconditions.changes import BRAKE, END_RUN, GET_UP, SLOW_DOWN, WALK_TO_RUN
+from locomotion.preconditions.changes import BRAKE, END_RUN, SLOW_DOWN, WALK_TO_RUN
 from locomotion.preconditions.moments import make_slippery
 from locomotion.training.preconditions.sampling import ENDS, Outcome, noted_change
 from locomotion.training.preconditions.starts import Start
@@ -27,18 +24,12 @@ _PACES = (0.5, 0.99)  # of the planned speed: with less than all of it nobody be
 _LONGEST, _WAITS = 2000, 300  # ticks until a change is due, and in which it then finds a moment for it
 _CHANGES_IN, _STAYS = 800, 200  # ticks within which it has changed, and for which it stays up afterwards
 _RUNS = 300  # ticks of a run that has begun well
-_UP_IN, _LIES = 800, 100  # ticks after a fall in which it is to be up, and at which its odds are asked
-_SHOVES, _BETWEEN = (300.0, 700.0), 100
-# [N] with which those are shoved who are to fall; ticks between two
 
 
 def try_change(name: str, start: Start, rng: np.random.Generator) -> Outcome:
     """Go on from a ``start``, and change as ``name`` (`preconditions.changes.CHANGES`) says when the way of
     `Start.distance` is made; ``rng``: for velocities and paces."""
     human, outcome = _begin(name, start, rng), Outcome(start, None)
-    if name == GET_UP:
-        _get_up(human, outcome, rng)
-        return outcome
     left = start.push_ticks
     while human.status in MOVING and human.com[0] < start.distance and human.ticks < _LONGEST:
         pushed = left > 0 and human.com[0] >= start.distance - start.push_at
@@ -66,7 +57,7 @@ def _begin(name: str, start: Start, rng: np.random.Generator) -> Human:
     ground = Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]])
     ground.friction = start.friction
     policy = load_policy() if name == END_RUN else None
-    human = Human(ground, rehearsals=0, gets_up=name == GET_UP, policy=policy)
+    human = Human(ground, rehearsals=0, policy=policy)
     if start.friction < FRICTION:
         make_slippery(human.model, start.friction)
     human.reset((0.0, start.beside, 0.0), start.askew, start.running)
@@ -124,34 +115,3 @@ def _went_well(name: str, human: Human) -> bool:
         if done >= stays or human.held:
             return True
     return False
-
-
-def _get_up(human: Human, outcome: Outcome, rng: np.random.Generator) -> None:
-    """Shove it until it falls; is it up in time, and stays up?"""
-    start, chest = outcome.start, human.index.chest
-    while human.status != "getting up" and human.ticks < _LONGEST:
-        shoved = human.com[0] >= start.distance and human.ticks % _BETWEEN < 2 * start.push_ticks
-        if human.ticks % _BETWEEN == 0:
-            side, force = rng.uniform(-math.pi, math.pi), rng.uniform(*_SHOVES)
-        human.data.xfrc_applied[chest, :2] = (
-            (force * math.cos(side), force * math.sin(side)) if shoved else (0.0, 0.0)
-        )
-        human.tick()
-    human.data.xfrc_applied[:] = 0.0
-    outcome.end = ENDS[1]
-    if human.status != "getting up":
-        return
-    fell, up = human.ticks, 0
-    human.events.clear()
-    while human.ticks - fell < _UP_IN + _STAYS and not (up and human.ticks - up > _STAYS):
-        if human.ticks - fell == _LIES and human.status == "getting up":
-            outcome.noted.append(noted_change(human, (0.0, 0.0), 0.0, start.friction))
-        human.tick()
-        if not up and any(isinstance(event, GotUp) for event in human.events):
-            up = human.ticks
-        if (up and human.status == "getting up") or human.status == "fallen":
-            break
-    stays = up and up - fell <= _UP_IN and human.status not in ("getting up", "fallen")
-    outcome.clean = bool(stays) and bool(outcome.noted)
-    if outcome.noted:
-        outcome.end = ENDS[0] if outcome.clean else ENDS[5]

@@ -35,7 +35,7 @@ ENDS = (
     "fell behind it",
     "does not hold",
 )
-"""How an attempt ends; the last is of changes of gait and getting up. A skill holds if the body clears the
+"""How an attempt ends; the last is of changes of gait. A skill holds if the body clears the
 obstacle and stays up behind it, as in a rehearsal (`locomotion.rehearsal.trials.clears`)."""
 _WAITS = 1500  # ticks within which it is in its run-up
 _WALKS = 200  # ticks that it has to walk on after it has slowed down

@@ -9,7 +9,7 @@ import numpy as np
 
 from locomotion.body.person import CONTROL_DT
 from locomotion.ground.ground import FRICTION
-from locomotion.preconditions.changes import BRAKE, END_RUN, GET_UP, SLOW_DOWN, WALK_TO_RUN
+from locomotion.preconditions.changes import BRAKE, END_RUN, SLOW_DOWN, WALK_TO_RUN
 from locomotion.skills.jump.kind import JUMP
 from locomotion.skills.kind import SkillKind
 from locomotion.training.skills.vault import DEPTHS
@@ -111,9 +111,9 @@ def draw_change(name: str, rng: np.random.Generator) -> Start:
     """Draw a start of a change on level ground, one of `preconditions.changes.CHANGES`."""
     start = draw_start(JUMP, rng)
     spread, running, way = rng.random(2), rng.uniform(*_RUNNING), rng.random()
-    walks = name == WALK_TO_RUN or (name == GET_UP and spread[1] < 0.5)
+    walks = name == WALK_TO_RUN
     low, high = _WALKED if walks else _RUN
-    choice, push, pushed = (0.0, 0.0), start.push, start.push_ticks > 0 or name == GET_UP
+    choice, push, pushed = (0.0, 0.0), start.push, start.push_ticks > 0
     if name == WALK_TO_RUN:
         choice = (float(spread[0] < 0.5), round(max(_AHEAD * (2.0 * float(spread[1]) - 1.0), 0.0), 3))
     elif name in (SLOW_DOWN, BRAKE):

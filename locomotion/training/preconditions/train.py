@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from locomotion.preconditions.changes import BRAKE, CHANGES, END_RUN, GET_UP, SLOW_DOWN, WALK_TO_RUN
+from locomotion.preconditions.changes import BRAKE, CHANGES, END_RUN, SLOW_DOWN, WALK_TO_RUN
 from locomotion.preconditions.precondition import Precondition, precondition_file
 from locomotion.skills.registry import skill_kinds
 from locomotion.training.preconditions.fitting import fit_precondition
@@ -16,7 +16,7 @@ __all__ = ["STARTS", "sampled_skills", "train_preconditions"]
 
 STARTS = 2000
 """Starts of each skill that the package's preconditions are learned from."""
-_OF_CHANGES = {WALK_TO_RUN: 0.4, SLOW_DOWN: 0.3, BRAKE: 0.2, END_RUN: 0.2, GET_UP: 0.1}  # shares of these
+_OF_CHANGES = {WALK_TO_RUN: 0.4, SLOW_DOWN: 0.3, BRAKE: 0.2, END_RUN: 0.2}  # shares of these
 
 
 def sampled_skills() -> tuple[str, ...]:

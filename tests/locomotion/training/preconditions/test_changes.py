@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from locomotion.preconditions.changes import BRAKE, END_RUN, GET_UP, SLOW_DOWN, WALK_TO_RUN
+from locomotion.preconditions.changes import BRAKE, END_RUN, SLOW_DOWN, WALK_TO_RUN
 from locomotion.training.preconditions.changes import try_change
 from locomotion.training.preconditions.starts import draw_change
 
@@ -31,11 +31,3 @@ def test_an_easy_change_holds_and_has_one_moment(name, running, choice):
 def test_a_hopeless_change_does_not_hold():
     start = replace(EASY, friction=0.05)
     assert try_change(BRAKE, start, np.random.default_rng(0)).end != "holds"
-
-
-def test_who_is_to_get_up_has_fallen_before():
-    start = replace(draw_change(GET_UP, np.random.default_rng(3)), distance=2.0)
-    outcome = try_change(GET_UP, start, np.random.default_rng(3))
-    assert outcome.end in ("holds", "does not hold")
-    low = outcome.noted[0].qpos[2]
-    assert low < 0.6  # the pelvis of one that lies

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from locomotion.preconditions.changes import BRAKE, CHANGES, GET_UP, WALK_TO_RUN
+from locomotion.preconditions.changes import BRAKE, CHANGES, WALK_TO_RUN
 from locomotion.skills.registry import skill_called
 from locomotion.training.preconditions.starts import draw_change, draw_slow_down, draw_start
 
@@ -32,4 +32,3 @@ def test_changes_are_chosen_all_over_their_ranges():
     harder = np.array([each.variation[0] for each in drawn[BRAKE]])
     assert 0.9 <= harder.min() < 1.1 and 2.6 < harder.max() <= 2.8
     assert all(2.2 <= each.running <= 4.4 for each in drawn[BRAKE])
-    assert all(each.push_ticks > 0 for each in drawn[GET_UP])

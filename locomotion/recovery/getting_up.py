@@ -48,10 +48,10 @@ _GATHER_TIME, _SWING_TIME, _FOLLOW_TIME, _REACH_TIME, _SETTLE_TIME, _TUCK_TIME, 
     0.6,
     0.37,
     0.5,
-    0.5,
+    0.35,
     0.1,
-    0.8,
-    1.0,
+    0.7,
+    0.7,
 )  # [s]
 _ROLLS, _SPREAD_TIME = 0.4, 0.3  # slope on which a limp body rolls down; [s]
 _STEADY, _BEARS, _STEADY_MOST = 0.15, 20.0, 8.0  # [m/s], [N] of each limb: it has come to rest on them; [s]
@@ -97,7 +97,7 @@ _REACH = _posture(
     hip_abduction=20,
 )  # fmt: skip
 _TUCK = _posture(
-    shoulder_flexion=35, shoulder_abduction=70, shoulder_rotation=-20, elbow_flexion=80, hip_flexion=115,
+    shoulder_flexion=0, shoulder_abduction=65, shoulder_rotation=-20, elbow_flexion=105, hip_flexion=115,
     hip_abduction=40, knee_flexion=135, ankle_flexion=20, toe_extension=40, neck_pitch=-20,
 )  # fmt: skip
 

@@ -4,8 +4,9 @@ import numpy as np
 
 __all__ = [
     "AIR", "ALL_DOWN", "ANCHORS", "AWAY", "AXES", "BEGUN_FROM", "BIAS", "BORNE", "CENTRE", "CLOCK",
-    "DOWN", "FACING", "GATHERING", "HOLDS", "HOMES", "LIE_AHEAD", "LIE_HERE", "LIFT", "LIMP", "LOADS", "MODE",
-    "MODE_CLOCK", "PAIR", "PHASE", "REACHING", "RISEN", "RISING", "ROLLING", "ROLL_SIDE", "SCRAMBLE_SIZE",
+    "DOWN", "FACING", "GATHERING", "GATHERS", "HOLDS", "HOMES", "LIE_AHEAD", "LIE_HERE", "LIFT", "LIMP",
+    "LOADS", "MODE", "MODE_CLOCK", "PAIR", "PHASE", "REACHING", "RISEN", "RISING", "ROLLING", "ROLL_SIDE",
+    "SCRAMBLE_SIZE",
     "SEEN_BASE", "SEEN_COM", "SEEN_FORCES", "SEEN_LIMBS", "SEEN_TRUNK", "SEEN_TURN", "SEEN_VELOCITY",
     "SPOT", "STANCE", "SWINGING", "TICKS", "TRIES", "TUCKING", "TURNING", "new_scramble",
 ]  # fmt: skip
@@ -42,6 +43,8 @@ LIE_HERE, LIE_AHEAD = slice(423, 425), slice(425, 427)
 """Gradients of the ground (2,): around the body, and where it comes to."""
 GATHERING = 427
 """[s] for which the feet have been stepping under the body for it to rise, in this round."""
+GATHERS = 5.0
+"""[s] for which they try, until it scrambles on a bit."""
 SCRAMBLE_SIZE = 428
 
 HOMES = {

@@ -14,8 +14,8 @@ from locomotion.recovery.layout import ANCHORS, AXES, BIAS, LOADS, SEEN_COM, SEE
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
-    "ARMS", "BALL", "HIGHEST", "LEGS", "LOWEST", "STIFFNESS", "SWIVEL", "WAIST_CHEST_NECK", "attitude",
-    "bear", "leg_angles", "turned",
+    "ARMS", "BALL", "GRAVITY", "HIGHEST", "LEGS", "LOWEST", "STIFFNESS", "SWIVEL", "WAIST_CHEST_NECK",
+    "attitude", "bear", "leg_angles", "turned",
 ]  # fmt: skip
 
 _trunk = [j for p in ("waist", "chest", "head") for j in TRUNK_JOINTS[p]]
@@ -38,7 +38,8 @@ SWIVEL = -0.3
 _HIP_OUT = 0.085  # [m] from the middle
 _ANKLE_UP, _INVERT = 0.42, 0.36  # [rad] that ankles bend before the heel comes up, and sideways
 _GRASP = 40.0  # [N] with which a limb presses that bears nothing yet
-_GRAVITY = 9.81
+GRAVITY = 9.81
+"""[m/s2]"""
 
 
 @kernel
@@ -83,10 +84,14 @@ def leg_angles(qref, pelvis, ball, yaw, pitch, side, out):
 
 
 @allocating_kernel
-def bear(memory, limbs, torques):
-    """Torques (39,) [Nm] with which the limbs that are down carry the weight by vertical forces, shared so
-    that they pass through the centre of mass."""
-    com = memory[SEEN_COM]
+def bear(memory, limbs, push, torques):
+    """Torques (39,) [Nm] with which the limbs that are down carry the weight and accelerate the body by
+    ``push`` (2,) [m/s2], by forces that pass through the centre of mass."""
+    com = memory[SEEN_COM].copy()
+    sx, sy = push[0] / GRAVITY, push[1] / GRAVITY
+    low = 0.25 * (limbs[0, 2] + limbs[1, 2] + limbs[2, 2] + limbs[3, 2])
+    com[0] -= (com[2] - low) * sx
+    com[1] -= (com[2] - low) * sy
     a, force, multiplier = np.zeros((3, 3)), np.zeros(4), np.empty(3)
     loads = memory[LOADS]
     row = np.empty(3)
@@ -101,7 +106,7 @@ def bear(memory, limbs, torques):
     multiplier[0] = a[1, 1] * a[2, 2] - a[1, 2] * a[2, 1]
     multiplier[1] = a[1, 2] * a[2, 0] - a[1, 0] * a[2, 2]
     multiplier[2] = a[1, 0] * a[2, 1] - a[1, 1] * a[2, 0]
-    multiplier *= MASS * _GRAVITY / (a[0] @ multiplier)
+    multiplier *= MASS * GRAVITY / (a[0] @ multiplier)
     total = 0.0
     for k in range(4):
         f = multiplier[0]
@@ -111,11 +116,14 @@ def bear(memory, limbs, torques):
     anchors, axes = memory[ANCHORS].reshape(39, 3), memory[AXES].reshape(39, 3)
     torques[:] = memory[BIAS]
     for k in range(4):
-        f = force[k] * min(MASS * _GRAVITY / max(total, 1.0), 1.5)
+        f = force[k] * min(MASS * GRAVITY / max(total, 1.0), 1.5)
         f = min(f, _GRASP + 2.0 * memory[SEEN_FORCES.start + k])
         first, last = (9 + 8 * k, 17 + 8 * k) if k < 2 else (25 + 7 * (k - 2), 32 + 7 * (k - 2))
         for j in range(39):
             if not (first <= j < last or (k < 2 and j < 6)):
                 continue
             rx, ry = limbs[k, 0] - anchors[j, 0], limbs[k, 1] - anchors[j, 1]
-            torques[j] -= (axes[j, 0] * ry - axes[j, 1] * rx) * f
+            rz = limbs[k, 2] - anchors[j, 2]
+            torques[j] -= f * (
+                axes[j, 0] * (ry - rz * sy) + axes[j, 1] * (rz * sx - rx) + axes[j, 2] * (rx * sy - ry * sx)
+            )

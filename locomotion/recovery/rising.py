@@ -1,7 +1,7 @@
 """From hands and feet to a stand (numba).
 
 First the feet step forward under the body, with the ordinary gait and home positions of their own (`gather`);
-then the weight shifts to them, and hips and trunk rise over the soles together (`rise_tick`).
+then hands push the body back over them, and hips and trunk rise over the soles together (`rise_tick`).
 """
 
 import math
@@ -17,6 +17,7 @@ from locomotion.recovery.layout import (
     CENTRE,
     FACING,
     GATHERING,
+    GATHERS,
     HOMES,
     LOADS,
     MODE,
@@ -32,7 +33,16 @@ from locomotion.recovery.layout import (
     SEEN_VELOCITY,
     STANCE,
 )  # fmt: skip
-from locomotion.recovery.limbs import LEGS, STIFFNESS, WAIST_CHEST_NECK, attitude, bear, leg_angles, turned
+from locomotion.recovery.limbs import (
+    GRAVITY,
+    LEGS,
+    STIFFNESS,
+    WAIST_CHEST_NECK,
+    attitude,
+    bear,
+    leg_angles,
+    turned,
+)
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["begin_to_rise", "gather", "ready_to_rise", "rise_tick", "stands"]
@@ -42,20 +52,24 @@ _GATHERED = {
     "foot_slope": 0.0,
     "hand_ahead": 0.27,
     "height": 0.40,
-    "foot_out": 0.14,
+    "foot_out": 0.08,
     "curve": 0.4,
     "arm": 0.6,
     "pause": 0.03,
 }
 _HOMES = np.array(list(HOMES.values()))
 _CLOSE = np.array([_GATHERED.get(name, value) for name, value in HOMES.items()])
-_SHIFT_TIME, _RISES_AFTER, _RISE_TIME = 0.15, 0.05, 1.1  # [s]
+_SHIFT_TIME, _RISES_AFTER, _RISE_TIME = 0.15, 0.05, 0.9  # [s]
 _HANDED_OVER = 0.95  # share of that after which the walk takes over
-_BEHIND, _AT_REST = -0.15, 0.5  # [m] of the feet ahead of the body, [m/s]: it can begin to rise
-_GATHERS, _ROUND = 5.0, 9.0  # [s] that the feet try to come under the body, until they try again
+_BEHIND, _AT_REST = -0.33, 0.5  # [m] of the feet ahead of the body, [m/s]: hands can push it over them
+_ROUND = 9.0  # [s] after which feet that do not come under the body try again
+_SHIFTS = 2.0  # [s] in which the weight comes over the feet, or they step again
 _OVER = 0.05  # [m] of the centre of mass ahead of the balls, below which the hands let go
+_COASTS = 0.15  # [s] that it goes on at its speed when the hands let go
+_GOES_OVER = 0.1  # share of the way to over the feet by which its wanted place moves in a tick
+_PUSH, _PUSH_DAMP, _PUSH_MOST = 40.0, 10.0, 4.0  # [1/s2], [1/s], [m/s2] with which it is pushed there
 _HIPS, _LEAN = 0.80, 0.12  # [m] of the hips above the soles, [rad] at the end
-_SOLE_BACK = 0.06  # [m] from the ball back to where the weight is to be
+_SOLE_BACK = 0.03  # [m] from the ball back to where the weight is to be
 _WAIST, _CHEST, _ = WAIST_CHEST_NECK
 _R_HIP, _L_HIP = LEGS
 _ABDUCTIONS = np.array([JOINT_NAMES.index(f"{s}_shoulder_abduction") for s in ("right", "left")])
@@ -68,7 +82,7 @@ def gather(memory, to_rise):
     close. Feet that do not come under the body where it is are given up after a while: it scrambles on a bit
     before it tries again."""
     memory[GATHERING] = (memory[GATHERING] + CONTROL_DT) % _ROUND if to_rise else 0.0
-    close = to_rise and memory[GATHERING] < _GATHERS
+    close = to_rise and memory[GATHERING] < GATHERS
     memory[STANCE] = _CLOSE if close else _HOMES
     return close
 
@@ -80,10 +94,9 @@ def ready_to_rise(memory):
     if memory[PHASE] != ALL_DOWN or memory[RISEN] < 1.0 or math.hypot(v[0], v[1]) > _AT_REST:
         return False
     ch, sh = math.cos(memory[FACING]), math.sin(memory[FACING])
-    for k in range(2, 4):
-        ahead = ch * (seen[k, 0] - com[0]) + sh * (seen[k, 1] - com[1])
-        if ahead < _BEHIND or memory[SEEN_FORCES.start + k] < 20.0:
-            return False
+    ahead = ch * (seen[2:, 0] - com[0]) + sh * (seen[2:, 1] - com[1])
+    if ahead.min() < _BEHIND or memory[SEEN_FORCES][2:].min() < 20.0:
+        return False
     return True
 
 
@@ -110,11 +123,12 @@ def rise_tick(memory, qpos, ctrl):
     ch, sh = math.cos(memory[FACING]), math.sin(memory[FACING])
     # the weight goes over to the feet first
     over = ch * (com[0] - 0.5 * (seen[2, 0] + seen[3, 0])) + sh * (com[1] - 0.5 * (seen[2, 1] + seen[3, 1]))
+    over += _COASTS * (ch * v[0] + sh * v[1])
     if memory[MODE_CLOCK] > 0.0 or over < _OVER:
         memory[MODE_CLOCK] += CONTROL_DT
     else:
         memory[GATHERING] += CONTROL_DT
-        if memory[GATHERING] >= _GATHERS:  # the weight does not come over the feet
+        if memory[GATHERING] >= _SHIFTS:  # the weight does not come over the feet
             memory[MODE] = BORNE
     shift = clamp(memory[MODE_CLOCK] / _SHIFT_TIME, 0.0, 1.0)
     up = clamp((memory[MODE_CLOCK] - _RISES_AFTER) / _RISE_TIME, 0.0, 1.0)
@@ -129,8 +143,8 @@ def rise_tick(memory, qpos, ctrl):
     heel = memory[BEGUN_FROM.start + 2]
     back = _SOLE_BACK * (1.0 - min(heel / 0.3, 1.0)) - 0.01
     mx, my = 0.5 * (seen[2, 0] + seen[3, 0]) - back * ch, 0.5 * (seen[2, 1] + seen[3, 1]) - back * sh
-    memory[CENTRE.start] += 0.03 * (mx - memory[CENTRE.start])
-    memory[CENTRE.start + 1] += 0.03 * (my - memory[CENTRE.start + 1])
+    memory[CENTRE.start] += _GOES_OVER * (mx - memory[CENTRE.start])
+    memory[CENTRE.start + 1] += _GOES_OVER * (my - memory[CENTRE.start + 1])
     attitude(memory[FACING], lean, 0.0, qref)
     pelvis, angles, torques = np.empty((3, 3)), np.empty(7), np.empty(39)
     turned(qref[3:7], pelvis)
@@ -140,15 +154,18 @@ def rise_tick(memory, qpos, ctrl):
         lever = pelvis[i, 0] * off[0] + pelvis[i, 1] * off[1] + pelvis[i, 2] * off[2]
         qref[i] = memory[CENTRE.start + i] - lever - 0.1 * v[i]
     qref[2] = 0.5 * (seen[2, 2] + seen[3, 2]) + height
-    # the force passes through the sole below the centre of mass
-    limbs = seen.copy()
+    # hands and soles push the body over the feet
+    limbs, push = seen.copy(), np.array([mx - com[0], my - com[1]])
+    for i in range(2):
+        push[i] = clamp(_PUSH * push[i] - _PUSH_DAMP * v[i], -_PUSH_MOST, _PUSH_MOST)
     bx, by = 0.5 * (seen[2, 0] + seen[3, 0]), 0.5 * (seen[2, 1] + seen[3, 1])
-    along = ch * (com[0] + 0.25 * v[0] - bx) + sh * (com[1] + 0.25 * v[1] - by)
+    lever = (com[2] - seen[2, 2]) / GRAVITY
+    along = ch * (com[0] - lever * push[0] - bx) + sh * (com[1] - lever * push[1] - by)
     along = clamp(along, -0.11 * (1.0 - min(heel / 0.2, 1.0)), 0.04)
     for k in range(2, 4):
         limbs[k, 0] += along * ch
         limbs[k, 1] += along * sh
-    bear(memory, limbs, torques)
+    bear(memory, limbs, push, torques)
     ctrl[:] = memory[BEGUN_FROM] * (1.0 - up)
     ctrl[:9] = 0.0
     for j in (_WAIST, _CHEST):

@@ -27,6 +27,8 @@ from locomotion.recovery.layout import (
     CLOCK,
     DOWN,
     FACING,
+    GATHERING,
+    GATHERS,
     HOLDS,
     LIE_AHEAD,
     LIE_HERE,
@@ -161,20 +163,23 @@ def _gait(ground, memory, command, gradient, slope):
     period = p[_SWING] + p[_PAUSE]
     home = np.empty(3)
     lifting = -1
+    # hands stay where they are while the feet come under the body
+    first = 2 if 0.0 < memory[GATHERING] < GATHERS else 0
     if memory[PHASE] == ALL_DOWN:
         late = abs(command[SPEED_ASKED]) > 0.02
-        for k in range(4):
+        for k in range(first, 4):
             _home(ground, p, k, memory[CENTRE.start], memory[CENTRE.start + 1], low, facing, slope, home)
             late = late or math.hypot(home[0] - seen[k, 0], home[1] - seen[k, 1]) > 0.12
         late = late and memory[RISEN] > 0.6
         a = int(1.0 - memory[PAIR])
         if late and memory[CLOCK] >= p[_PAUSE] - _UNLOAD:
             lifting = a
-        if lifting >= 0 and memory[LOADS.start + a] < 0.3:
+        if lifting >= 0 and memory[LOADS.start + (a if first == 0 else 3 - a)] < 0.3:
             memory[PHASE], memory[CLOCK], memory[PAIR] = SWINGING, 0.0, a
             for k in (a, 3 - a):
-                memory[DOWN.start + k] = 0.0
-                lift[k] = seen[k]
+                if k >= first:
+                    memory[DOWN.start + k] = 0.0
+                    lift[k] = seen[k]
     if memory[PHASE] == SWINGING:
         a = int(memory[PAIR])
         left = max(p[_SWING] - memory[CLOCK], 0.0)
@@ -197,7 +202,9 @@ def _gait(ground, memory, command, gradient, slope):
             memory[PHASE], memory[CLOCK] = ALL_DOWN, 0.0
     for k in range(4):
         want = memory[DOWN.start + k]
-        if memory[AIR.start + k] > _LOST or (lifting >= 0 and (k == lifting or k == 3 - lifting)):
+        if memory[AIR.start + k] > _LOST or (
+            lifting >= 0 and k >= first and (k == lifting or k == 3 - lifting)
+        ):
             want = 0.0
         memory[LOADS.start + k] += clamp(want - memory[LOADS.start + k], -0.2, 0.15)
 
@@ -314,7 +321,7 @@ def scramble_tick(ground, memory, command, qpos, qvel, ctrl):
     actual = np.empty((3, 3))
     turned(qpos[3:7], actual)
     torques = np.empty(39)
-    bear(memory, limbs, torques)
+    bear(memory, limbs, np.zeros(2), torques)
     target = np.zeros(39)
     target[_WAIST] = target[_CHEST] = p[_CURVE]
     lean = math.atan2(ch * actual[0, 2] + sh * actual[1, 2], actual[2, 2])

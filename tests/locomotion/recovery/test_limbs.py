@@ -75,7 +75,7 @@ def test_limbs_that_are_down_carry_the_weight_so_that_it_passes_through_the_cent
         observe_scramble(parts, data, memory)
         memory[LOADS], memory[SEEN_FORCES] = loads, 400.0
         limbs, torques = memory[SEEN_LIMBS].reshape(4, 3).copy(), np.empty(39)
-        bear(memory, limbs, torques)
+        bear(memory, limbs, np.zeros(2), torques)
         lever = np.empty((39, 4))
         for k, body in enumerate([*parts.ends[:2], *toes]):
             jacobian = np.zeros((3, model.nv))
@@ -98,5 +98,28 @@ def test_a_limb_that_bears_nothing_yet_presses_only_lightly():
     limbs, light, firm = memory[SEEN_LIMBS].reshape(4, 3).copy(), np.empty(39), np.empty(39)
     for forces, torques in ((0.0, light), (400.0, firm)):
         memory[SEEN_FORCES] = forces
-        bear(memory, limbs, torques)
+        bear(memory, limbs, np.zeros(2), torques)
     assert np.abs(light - memory[BIAS]).max() < 0.5 * np.abs(firm - memory[BIAS]).max()
+
+
+def test_limbs_push_a_body_so_that_it_does_not_turn():
+    human = Human(plane(0.0), clearing=())
+    human.reset((0, 0, 0), 0.0)
+    model, data, parts = human.model, human.data, parts_of(human.index, human.model)
+    observe_scramble(parts, data, human.fours.memory)
+    memory, toes = human.fours.memory, [human.index.bodies[f"{side}_toes"] for side in ("right", "left")]
+    memory[SEEN_FORCES] = 400.0
+    limbs, torques, push = memory[SEEN_LIMBS].reshape(4, 3).copy(), np.empty(39), np.array([-0.5, 0.0])
+    limbs[:2, 0] += 0.4  # hands ahead of the body, feet below it
+    limbs[:2, 2] = limbs[2, 2]
+    bear(memory, limbs, push, torques)
+    lever = np.empty((39, 12))
+    for k, body in enumerate([*parts.ends[:2], *toes]):
+        jacobian = np.zeros((3, model.nv))
+        mujoco.mj_jac(model, data, jacobian, None, limbs[k], body)
+        lever[:, 3 * k : 3 * k + 3] = jacobian[:, 6:].T
+    lever[6:9] = 0.0
+    forces = np.linalg.lstsq(-lever, torques - memory[BIAS], rcond=None)[0].reshape(4, 3)
+    assert forces.sum(axis=0) == pytest.approx([-0.5 * MASS, 0.0, WEIGHT], rel=0.01, abs=0.5)
+    turning = np.cross(limbs - memory[SEEN_COM], forces).sum(axis=0)
+    assert np.abs(turning).max() < 0.05 * WEIGHT

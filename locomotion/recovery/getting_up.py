@@ -53,7 +53,6 @@ _GATHER_TIME, _SWING_TIME, _FOLLOW_TIME, _REACH_TIME, _SETTLE_TIME, _TUCK_TIME, 
     0.7,
     0.7,
 )  # [s]
-_STEEP_RISE_TIME = 1.0  # [s]: faster it tips over more often
 _ROLLS, _SPREAD_TIME = 0.4, 0.3  # slope on which a limp body rolls down; [s]
 _STEADY, _BEARS, _STEADY_MOST = 0.15, 20.0, 8.0  # [m/s], [N] of each limb: it has come to rest on them; [s]
 _LOOKS = 4.0  # ticks after which it looks again whether it has tipped over
@@ -234,8 +233,7 @@ def rise_on(ground, memory, qpos, to_stand):
         for k in range(4):
             steady = steady and memory[SEEN_FORCES.start + k] > _BEARS
         most = 1.0 if to_stand or steady or memory[MODE_CLOCK] > _STEADY_MOST else _NEARLY
-        lasts = _RISE_TIME if to_stand else _STEEP_RISE_TIME
-        memory[RISEN] = max(memory[RISEN], min(memory[RISEN] + CONTROL_DT / lasts, most))
+        memory[RISEN] = max(memory[RISEN], min(memory[RISEN] + CONTROL_DT / _RISE_TIME, most))
         looks = memory[TICKS] % _LOOKS == 0.0
         if looks and lies_on_front(ground, memory)[0] > _OFF_FRONT:
             begin_getting_up(memory, qpos)

@@ -202,15 +202,14 @@ class HumanDriver(Driver):
                 f"it is {self.status}; while it is simulated its size can change only where it stands"
             )
         place, facing, time, habit = self.position, self.facing, self.time, self.human.habit
-        self._exchange(size)
+        self._exchange(self._pool.take(size), size)
         self.body.reset(place, facing)
         self.human.habit = habit
         self.human.ticks = self.human.ended_at = round(time / self.body.tick_seconds)
 
-    def _exchange(self, size: float) -> None:
-        """Go on with the body of a person of another size, wherever that stands."""
+    def _exchange(self, human: Human, size: float) -> None:
+        """Go on with the body of a ``human`` of another size, wherever that stands."""
         before = self.human
-        human = self._pool.take(size)
         human.events, before.events = before.events, []  # its agent keeps the list
         human.bravery = before.bravery
         self._pool.put_back(before, self.body.size)
@@ -421,9 +420,10 @@ class HumanDriver(Driver):
         check_number("what a person is behind its world", state.owed, 0.0, 1.0)
         if fading is not None:
             fading.check()
-        if state.size != self.body.size:
-            self._exchange(state.size)
-        check_person(body, self.human)
+        human = self.human if state.size == self.body.size else self._pool.take(state.size)
+        check_person(body, human)
+        if human is not self.human:
+            self._exchange(human, state.size)
         self.human.restore_state(body)
         self.body.become(self.human, state.size, state.owed)
         self._orders.restore(orders)

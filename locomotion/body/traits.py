@@ -14,6 +14,7 @@ from surefoot.numeric import is_finite
 
 __all__ = [
     "ARMS", "HEAD", "LEAN", "PACE", "PHASE", "SIZE", "SPREAD", "TRAITS", "WIDTH", "by_chance", "by_hand",
+    "chance_at",
 ]  # fmt: skip
 
 PHASE, PACE, WIDTH, ARMS, LEAN, HEAD, SIZE = range(7)
@@ -60,3 +61,9 @@ def by_chance(seed: int) -> NDArray[np.float64]:
     row = (usual + np.array(SPREAD) * chance.standard_normal(len(usual))).clip(least, most)
     row[PHASE] = chance.random()
     return row
+
+
+def chance_at(place: NDArray[np.float64], seed: int) -> np.random.Generator:
+    """What is by chance in somebody who appears at ``place`` (3,) [m] in a world of this ``seed``."""
+    millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
+    return np.random.default_rng((seed, *millimetres))

@@ -10,7 +10,7 @@ import numpy as np
 import navmesh
 from locomotion import PERSON_RULES
 from locomotion.body.models import person_on
-from locomotion.body.traits import SIZE
+from locomotion.body.traits import SIZE, chance_at
 from locomotion.human.motion_start import moment_like, set_in_motion
 from locomotion.human.sized_human import SizedHuman, movements_of
 from locomotion.postures.step_order import AT_REST
@@ -25,18 +25,12 @@ from runtime.planning.level import Level
 from surefoot.pausing import pause
 from surefoot.workers.threads import Threads
 
-__all__ = ["People", "chance_at"]
+__all__ = ["People"]
 
 _ASKEW = 0.4  # [rad] that a body which physics takes over may face off its way
 _SPOTS, _BESIDE = np.array([-0.4, 0.0, 0.4, 0.8, 1.2]), 0.15  # [m] along its way and beside it,
 _UNEVEN = 0.02  # where the ground is no more than this [m] higher or lower
 _HESITATES = 0.4  # [s] at most, from a stand: less than half a step
-
-
-def chance_at(place: np.ndarray, seed: int) -> np.random.Generator:
-    """What is by chance in somebody who appears at ``place`` (3,) [m] in a world of this ``seed``."""
-    millimetres = (np.round(1000.0 * place).astype(np.int64) % 2**32).tolist()
-    return np.random.default_rng((seed, *millimetres))
 
 
 class People(Population):

@@ -7,7 +7,7 @@ import numpy as np
 
 import navmesh
 from locomotion import PERSON_RULES, Ground, LocomotionError
-from locomotion.body.traits import SIZE, TRAITS, by_hand
+from locomotion.body.traits import SIZE, TRAITS, by_hand, chance_at
 from locomotion.crowd.saved_state_check import check_walker
 from locomotion.human.composition import checked_bravery
 from locomotion.preconditions.precondition import load_preconditions
@@ -22,7 +22,6 @@ from navmesh.routes.route import Route
 from runtime.bodies.figure import Joints
 from runtime.bodies.human_driver import HumanDriver
 from runtime.bodies.joints import person_figure, person_joints
-from runtime.bodies.people import chance_at
 from runtime.bodies.populations import Populations
 from runtime.bodies.protocol import Driver, Population, recall, saved_parts
 from runtime.bodies.walkers import WalkerDriver

@@ -5,8 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from locomotion.body.traits import TRAITS
-from runtime.bodies.people import chance_at
+from locomotion.body.traits import TRAITS, chance_at
 from runtime.errors import RuntimeInputError
 from surefoot.numeric import is_finite
 

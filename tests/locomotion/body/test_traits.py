@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from locomotion.body.traits import PHASE, SIZE, TRAITS, by_chance, by_hand
+from locomotion.body.traits import PHASE, SIZE, TRAITS, by_chance, by_hand, chance_at
 from locomotion.errors import LocomotionError
 
 
@@ -22,3 +22,10 @@ def test_traits_by_hand_are_checked():
         by_hand(limp=1.0)
     with pytest.raises(LocomotionError, match=r"size is 3.0, expected a number from 0.8 to 1.2"):
         by_hand(size=3.0)
+
+
+def test_chance_goes_by_seed_and_place_to_the_millimetre():
+    place = np.array([1.0, -2.0, 0.5])
+    drawn = chance_at(place, 3).random()
+    assert chance_at(place + 2e-4, 3).random() == drawn
+    assert chance_at(place + 1e-3, 3).random() != drawn != chance_at(place, 4).random()

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["as_floats", "is_finite", "is_whole"]
+__all__ = ["as_floats", "as_point", "is_finite", "is_whole"]
 
 
 def is_finite(value: Any) -> bool:
@@ -31,3 +31,9 @@ def as_floats(value: Any) -> NDArray[np.float64] | None:
         return None if array.dtype.kind in "USc" else array.astype(np.float64)
     except (TypeError, ValueError, OverflowError):
         return None
+
+
+def as_point(value: Any) -> NDArray[np.float64] | None:
+    """``value`` as a float64 array (3,); None if it is anything but three finite numbers."""
+    array = as_floats(value)
+    return array if array is not None and array.shape == (3,) and np.isfinite(array).all() else None

@@ -133,7 +133,8 @@ def _pairs(net, throats):
 
 @allocating_kernel(nogil=True)
 def _ways(start, target, length, sources):
-    """(n,) float64 [m]: the shortest way over links in CSR form from the nearest of the ``sources``."""
+    """(n,) float64 [m]: the shortest way over links in CSR form from the nearest of the ``sources``. As
+    `scipy.sparse.csgraph.dijkstra` has it, which keeps the interpreter's lock for all of its time."""
     way = np.full(start.size - 1, np.inf)
     keys, items = np.empty(target.size + sources.size), np.empty(target.size + sources.size, np.int32)
     size = sources.size

@@ -60,7 +60,7 @@ from locomotion.skills.interface import ClearingSkill
 from locomotion.skills.library import learned_skills
 from locomotion.skills.obstacle_check import check_obstacles
 from locomotion.skills.run_up import TakeOff
-from surefoot.numeric import as_floats, is_finite, is_whole
+from surefoot.numeric import as_point, is_finite, is_whole
 
 __all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "BetweenGaits", "Human", "HumanState", "Status"]
 
@@ -206,8 +206,8 @@ class Human(Person):
         Raises `LocomotionError` for numbers that are not finite, a speed below 0, or a position more than 0.5
         m off the ground.
         """
-        place = as_floats(position)
-        if place is None or place.shape != (3,) or not np.isfinite(place).all() or not is_finite(yaw):
+        place = as_point(position)
+        if place is None or not is_finite(yaw):
             raise LocomotionError(f"position and yaw must be finite (3,) and (), not {position} and {yaw}")
         if not (is_finite(speed) and speed >= 0.0):
             raise LocomotionError(f"speed must be a finite number >= 0 m/s, not {speed}")
@@ -296,8 +296,8 @@ class Human(Person):
 
         Raises `LocomotionError` for a force that is not three finite numbers, and for less than a tick.
         """
-        newtons = as_floats(force)
-        if newtons is None or newtons.shape != (3,) or not np.isfinite(newtons).all():
+        newtons = as_point(force)
+        if newtons is None:
             raise LocomotionError(f"force must be three finite numbers [N], not {force!r}")
         if not (is_finite(seconds) and round(seconds / CONTROL_DT) >= 1):
             raise LocomotionError(f"a push lasts {CONTROL_DT:g} s or more, not {seconds!r}")

@@ -166,7 +166,7 @@ class LearnedWalk:
             if not moving or command[SPEED_ASKED] < SLOWEST or follower.remaining < far:
                 return False  # it will stand before long
             off = abs(wrap(command[HEADING_ASKED] - walk[WALK_HEADING]))
-            if off > _ASKEW or math.hypot(*body.control[COM_VELOCITY][:2]) < _AT_LEAST:
+            if off > _ASKEW or body.ground_speed < _AT_LEAST:
                 return False  # it turns on the spot
         rows = way.table
         first = round(arc / way.length * (len(rows) - 1))
@@ -188,7 +188,7 @@ class LearnedWalk:
         self.memory[MAY_RUN] = 0.0
         if way is None or not free:
             return
-        speed = math.hypot(*body.control[COM_VELOCITY][:2])
+        speed = body.ground_speed
         far = _RUN_SEES + speed * (_REACTS + speed / (2.0 * RUN_STOPS))
         rows = way.table
         first = round(arc / way.length * (len(rows) - 1))

@@ -3,8 +3,8 @@
 Two bodies of one shape and density move alike under the same gravity if lengths are s times as long and times
 √s times as long; angles and accelerations are the same (R. McN. Alexander and A. S. Jayes, "A dynamic
 similarity hypothesis for the gaits of quadrupedal mammals", Journal of Zoology 201, 1983). So a person of
-another size is the usual one, as simulated, in a world that is told to it in its own measure, and what it has
-learned holds for it as it is.
+another size is simulated as the usual one. Lengths of the world are divided by its size before it is told of
+them, and times by √s. Nothing has to be learned for it.
 """
 
 from __future__ import annotations

@@ -212,7 +212,7 @@ class OnFeet:
     def catch(self, body: Simulation) -> None:
         """Behind a push: who has been thrown off its learned stand steps as planned, which holds more often
         to the back and to the sides."""
-        if self.learned is not None and self.learned.stands and _pace(body) > _THROWN:
+        if self.learned is not None and self.learned.stands and body.ground_speed > _THROWN:
             self.learned.give_back(body, self.walk, self.walk_skill.speed)
 
     def vary_step(self, longer: Sequence[float]) -> None:
@@ -313,7 +313,7 @@ class OnFeet:
         ready = walk[WALK_STEPS] >= _CHANGED
         if walk[PHASE] == STANDING:  # out of a crouch it straightens up, but the planned walk sets off
             ready = self._upright(body.control) or (ready and not moving)
-            ready = ready and (moving or _pace(body) < _CALM)
+            ready = ready and (moving or body.ground_speed < _CALM)
         usual = learned.active or ready
         fades = self.residual.acts and walk[PHASE] != STANDING  # what is left in a stand is no more needed
         usual = usual and not self.brakes and not fades and not self.landing.acts
@@ -416,8 +416,3 @@ class OnFeet:
             walk_on(data, index, self._first_steps[0], self.walk_limits.calm, state, self.walk)
         self.slowing = 0.0
         return True
-
-
-def _pace(body: Simulation) -> float:
-    """[m/s] of the centre of mass over the ground."""
-    return math.hypot(*body.control[controller.COM_VELOCITY][:2])

@@ -50,6 +50,11 @@ class Simulation:
         return self.control[controller.COM].copy()
 
     @property
+    def ground_speed(self) -> float:
+        """[m/s] of the centre of mass, seen from above."""
+        return math.hypot(*self.control[controller.COM_VELOCITY][:2])
+
+    @property
     def position(self) -> NDArray[np.float64]:
         """The point of the ground under the centre of mass, (3,) float64 [m]."""
         com, feet = self.control[controller.COM], self.control[controller.FEET]

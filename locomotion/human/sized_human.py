@@ -78,7 +78,7 @@ class SizedHuman:
 
     def in_world(self, event: Event) -> Event:
         """An event of the person."""
-        return event if self.size == 1.0 else self._measure.event(event)
+        return self._measure.event(event)
 
     # --- where it is
     @property
@@ -157,11 +157,11 @@ class SizedHuman:
     def obstacle_ahead(self) -> ObstacleAhead | None:
         """As `Human.obstacle_ahead`."""
         ahead = self.human.obstacle_ahead
-        return ahead if ahead is None or self.size == 1.0 else resized(ahead, self.size)
+        return None if ahead is None else resized(ahead, self.size)
 
     def own(self, obstacle: ObstacleAhead) -> ObstacleAhead:
         """An obstacle of the world, as the person is told of it."""
-        return obstacle if self.size == 1.0 else resized(obstacle, 1.0 / self.size)
+        return resized(obstacle, 1.0 / self.size)
 
     @property
     def ranges(self) -> Mapping[str, tuple[float, float]]:

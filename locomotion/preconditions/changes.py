@@ -43,7 +43,10 @@ pelvis [rad/s]; [m] off the path; centre of mass ahead, inside and above of the 
 last step; steps made, up to 8; speed of the last one, and its correction [m/s]; z of the pelvis's axes up and
 ahead; its height over the lower foot [m], its whole rate [rad/s]; and how far the sensors of the run are off
 their reference."""
-_MOST_STEPS, _ERRORS = 8.0, 21
+_CHOSEN, _ERRORS = slice(0, len(CHOICES)), slice(CHANGE_FEATURES.index("spin") + 1, len(CHANGE_FEATURES))
+_BODY = slice(_CHOSEN.stop, _ERRORS.start)
+# columns of what is chosen, of the body, and of the sensors
+_MOST_STEPS = 8.0
 _LEAST_SPEED = 0.3  # [m/s] from which a velocity has a direction
 
 
@@ -60,7 +63,7 @@ class Changing(NamedTuple):
 
 
 def changing(person: Person, asked: float, grip: float) -> Changing:
-    """``person`` as it is now; ``asked``: speed asked for [m/s]; ``grip``: coefficient of friction."""
+    """What is kept of ``person`` now. ``asked``: speed asked for [m/s]; ``grip``: coefficient of friction."""
     feet, state = person.on_feet, person.control
     side = feet.walk[WALK_STANCE] if feet.walks else state[layout.STANCE]
     heading = float(person.command[HEADING_ASKED])
@@ -84,13 +87,13 @@ def describe_change(body: Changing, choices: NDArray[np.float64]) -> NDArray[np.
     rates = body.qvel[3:6]
     com = state[layout.COM]
     row = np.empty(len(CHANGE_FEATURES))
-    row[2:_ERRORS] = (
+    row[_BODY] = (
         grip, asked, ahead @ velocity[:2], inwards @ velocity[:2], velocity[2], side * off, side * rates[2],
         side * body.beside, ahead @ (com[:2] - foot[:2]), inwards @ (com[:2] - foot[:2]), com[2] - foot[2],
         state[layout.STEP_TIME], min(state[layout.STEPS], _MOST_STEPS), state[layout.STEP_SPEED],
         state[layout.TRIM], up, -forward, body.qpos[2] - feet[:, 2].min(), float(np.linalg.norm(rates)),
     )  # fmt: skip
-    row[_ERRORS:] = state[layout.SENSOR_VALUES]
+    row[_ERRORS] = state[layout.SENSOR_VALUES]
     rows = np.tile(row, (len(choices), 1))
-    rows[:, :2] = choices
+    rows[:, _CHOSEN] = choices
     return rows

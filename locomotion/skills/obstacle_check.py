@@ -9,7 +9,7 @@ from locomotion.errors import LocomotionError
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.skills.interface import ClearingSkill, skill_for
 from locomotion.skills.registry import CLEARING
-from surefoot.numeric import as_floats, is_finite
+from surefoot.numeric import as_point, is_finite
 
 __all__ = ["check_obstacles"]
 
@@ -49,8 +49,7 @@ def _mistake(obstacle: ObstacleAhead) -> str | None:
         if not is_finite(value):
             return f"{name} must be a finite number of metres, not {value!r}"
     for name in ("position", "normal"):
-        value = as_floats(getattr(obstacle, name))
-        if value is None or value.shape != (3,) or not np.isfinite(value).all():
+        if as_point(getattr(obstacle, name)) is None:
             return f"{name} must be three finite numbers, not {getattr(obstacle, name)!r}"
     if abs(float(np.linalg.norm(obstacle.normal[:2])) - 1.0) > _UNIT:
         return f"normal must be horizontal and 1 long, not {obstacle.normal!r}"

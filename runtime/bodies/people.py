@@ -65,7 +65,7 @@ class People(Population):
 
     def revive(self, body: str, state: Any) -> Driver:
         driver = self._make(1.0)
-        driver.restore(state)  # raises for one of another release, who is then not here
+        driver.restore(state)  # if this raises, nobody has been added
         self._drivers.append(driver)
         return driver
 

@@ -63,7 +63,7 @@ class Driver(ABC):
         """[s] since it was made."""
 
     def in_world(self, event: Event) -> Event:
-        """One of its `events`, as it is in the world: a body may have a measure of its own."""
+        """An ``event`` of its `events` in metres and seconds of the world, which need not be its own."""
         return event
 
     @property

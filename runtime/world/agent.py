@@ -36,7 +36,7 @@ from runtime.world.agent_state import AgentState, Errand
 from runtime.world.arguments import checked_number, checked_points
 from runtime.world.level_of_detail import AUTO, PHYSICS, checked_detail
 from runtime.world.news import news_of
-from surefoot.numeric import as_floats
+from surefoot.numeric import as_point
 
 __all__ = ["Agent", "Pose"]
 
@@ -240,10 +240,11 @@ class Agent:
         the world from now on, 0.01 to 10, instead of what pushes it now. It gives way, takes steps, goes on,
         or falls and gets up. A hard shove is 200 N for 0.1 s. Takes constant time.
 
-        Raises `RuntimeInputError` for a force or a time that is none, and for a body that is not simulated.
+        Raises `RuntimeInputError` if ``force`` is not three finite numbers, ``seconds`` are out of range, or
+        the body is not a simulated person.
         """
-        newtons = as_floats(force)
-        if newtons is None or newtons.shape != (3,) or not np.isfinite(newtons).all():
+        newtons = as_point(force)
+        if newtons is None:
             raise RuntimeInputError(f"force must be three finite numbers [N], not {force!r}")
         seconds = checked_number(seconds, "seconds", "s")
         if not _SHORTEST_PUSH <= seconds <= _LONGEST_PUSH:

@@ -5,7 +5,7 @@ from decimal import Decimal
 import numpy as np
 import pytest
 
-from surefoot.numeric import as_floats, is_finite, is_whole
+from surefoot.numeric import as_floats, as_point, is_finite, is_whole
 
 
 @pytest.mark.parametrize("value", [0, -1.5, np.float32(2), np.int64(3), Decimal("0.5"), True, np.array(1.0)])
@@ -49,3 +49,9 @@ def test_the_array_is_a_copy():
     taken = as_floats(given)
     given[0] = 1.0
     assert taken.tolist() == [0.0, 0.0, 0.0]
+
+
+def test_a_point_is_three_finite_numbers():
+    assert as_point((1, 2.0, 3)).tolist() == [1.0, 2.0, 3.0]
+    for wrong in ((1.0, 2.0), [[1.0, 2.0, 3.0]], (1.0, 2.0, float("nan")), "abc", None, (1.0, "x", 2.0)):
+        assert as_point(wrong) is None

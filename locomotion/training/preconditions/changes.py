@@ -7,7 +7,7 @@ import numpy as np
 from locomotion.gaits.limits import SHORT_ENTRY, run_entry_speed
 from locomotion.gaits.policy.skill import load_policy
 from locomotion.gaits.run.layout import STEP_TIME
-from locomotion.ground.ground import FRICTION, Ground
+from locomotion.ground.ground import FRICTION, Ground, extruded
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
 from locomotion.paths.command import HEADING_ASKED
@@ -52,9 +52,7 @@ def try_change(name: str, start: Start, rng: np.random.Generator) -> Outcome:
 
 
 def _begin(name: str, start: Start, rng: np.random.Generator) -> Human:
-    xs, ys = (-_BEHIND, _LENGTH), (-_HALF, _HALF)
-    corners = [[x, y, 0.0] for x, y in ((xs[0], ys[0]), (xs[1], ys[0]), (xs[1], ys[1]), (xs[0], ys[1]))]
-    ground = Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]])
+    ground = Ground.from_arrays(*extruded([(-_BEHIND, 0.0), (_LENGTH, 0.0)], _HALF))
     ground.friction = start.friction
     policy = load_policy() if name == END_RUN else None
     human = Human(ground, rehearsals=0, policy=policy)

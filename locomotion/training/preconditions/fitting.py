@@ -63,7 +63,7 @@ class Samples:
         )  # fmt: skip
 
 
-def samples_of_change(outcomes: Outcomes) -> Samples:
+def _samples_of_change(outcomes: Outcomes) -> Samples:
     """The moments before a change, one of each start that came to one."""
     moments, start = outcomes.moments, outcomes.start_of
     told = (
@@ -94,7 +94,7 @@ def samples_of(outcomes: Outcomes) -> Samples:
     """The moments of all run-ups, but those before a push and of people who never took off; of a change those
     before it."""
     if outcomes.skill in CHANGES:
-        return samples_of_change(outcomes)
+        return _samples_of_change(outcomes)
     sites, moments, start = _sites(outcomes), outcomes.moments, outcomes.start_of
     state, plan = moments["state"].astype(np.float64), moments["plan"].astype(np.float64)
     variation, beside = moments["variation"].astype(np.float64), moments["beside"].astype(np.float64)

@@ -114,7 +114,7 @@ def draw_change(name: str, rng: np.random.Generator) -> Start:
     walks = name == WALK_TO_RUN
     low, high = _WALKED if walks else _RUN
     choice, push, pushed = (0.0, 0.0), start.push, start.push_ticks > 0
-    if name == WALK_TO_RUN:
+    if walks:
         choice = (float(spread[0] < 0.5), round(max(_AHEAD * (2.0 * float(spread[1]) - 1.0), 0.0), 3))
     elif name in (SLOW_DOWN, BRAKE):
         least, most = _DECELERATIONS if name == SLOW_DOWN else _HARDER

@@ -124,12 +124,14 @@ def tick_in_steps(human: Human, twin: mujoco.MjData, note: Callable[[], None]) -
     state = mujoco.mjtState.mjSTATE_INTEGRATION
     before = np.empty(mujoco.mj_stateSize(human.model, state))
     mujoco.mj_getState(human.model, human.data, before, state)
+    on_feet = not human.fours.active
     human.tick()
+    model = human.model if on_feet else human.fours.model
     mujoco.mj_setState(human.model, twin, before, state)
     twin.ctrl[:], twin.eq_active[:] = human.data.ctrl, human.data.eq_active
     twin.mocap_pos[:] = human.data.mocap_pos
     for _ in range(STEPS_PER_TICK):
-        mujoco.mj_step(human.model, twin)
+        mujoco.mj_step(model, twin)
         note()
 
 

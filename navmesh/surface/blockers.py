@@ -104,7 +104,7 @@ def _own_walls(
     """Fill in the walls in the cells' own squares from cell ``c`` on, as far as there are rows; returns the
     first cell that is left."""
     while c < cell_column.shape[0]:
-        count = 0
+        end = own_start[c]
         if base[c] < np.inf:
             column = cell_column[c]
             x, y = middle_of(patch, column)
@@ -113,19 +113,32 @@ def _own_walls(
                 base[c], headroom, patch.side, polygon, spare, own, 0,
             )  # fmt: skip
             count = sort_and_thin(own, count)
-        end = keep(rows, own_start[c], own, count)
-        if end < 0:
-            return c
+            end = keep(rows, end, own, count)
+            if end < 0:
+                return c
         c += 1
         own_start[c] = end
     return c
 
 
 @kernel(error_model="numpy")
-def _heights_to_ask(link, base, cell_column, height, gradient, start, patch, step, beside, asked):
-    """Say which cells are ``beside`` something (1), and which of them not linked to all sides (2); and
-    between which heights the floor in a column matters to those: ``asked``."""
+def _find_beside(link, base, beside):
+    """Say which cells are ``beside`` something (1), and which of them not linked to all sides (2). Returns how
+    many there are of both, and of the latter."""
+    for c in range(link.shape[0]):  # what may be: at most two links from what is not as on an open floor
+        if base[c] < np.inf or min(link[c, 0], link[c, 1], link[c, 2], link[c, 3]) < 0:
+            beside[c] = 1
+            for d in range(4):
+                n = link[c, d]
+                if n >= 0:
+                    beside[n] = 1
+                    corner = link[n, (d + 3) % 4]
+                    if corner >= 0:
+                        beside[corner] = 1
+    count = cut_off = 0
     for c in range(link.shape[0]):
+        if beside[c] == 0:
+            continue
         cut = False  # whether walking ends on the way to a neighbour
         near = base[c] < np.inf
         for d in range(4):
@@ -139,7 +152,19 @@ def _heights_to_ask(link, base, cell_column, height, gradient, start, patch, ste
                 near |= m < 0 or base[m] < np.inf
                 cut |= m < 0
         beside[c] = 2 if near and cut else int(near)
-        if not (near and cut):
+        count += int(near)
+        cut_off += int(near and cut)
+    return count, cut_off
+
+
+@kernel(error_model="numpy")
+def _heights_to_ask(link, cell_column, height, gradient, start, patch, step, beside, cells, row, asked):
+    """Say between which heights the floor in a column matters to those of the ``cells`` that are not linked
+    to all sides: ``asked`` (rows, 2), in the ``row`` of each column, which is -1 where it does not matter."""
+    rows = 0
+    for i in range(cells.shape[0]):
+        c = cells[i]
+        if beside[c] != 2:
             continue
         p, q = gradient[c, 0], gradient[c, 1]
         reach = step + patch.side * (abs(p) + abs(q)) + TOUCH
@@ -148,82 +173,109 @@ def _heights_to_ask(link, base, cell_column, height, gradient, start, patch, ste
             there = cell_column[c] + dx * patch.ny + dy
             if (d < 0 or (n < 0 and not known)) and start[there] < start[there + 1]:
                 level = height[c] + patch.side * (p * dx + q * dy)
-                asked[there, 0] = min(asked[there, 0], level - reach)
-                asked[there, 1] = max(asked[there, 1], level + reach)
+                at = row[there]
+                if at < 0:
+                    row[there], asked[rows, 0], asked[rows, 1] = rows, level - reach, level + reach
+                    rows += 1
+                else:
+                    asked[at, 0] = min(asked[at, 0], level - reach)
+                    asked[at, 1] = max(asked[at, 1], level + reach)
 
 
 @kernel(error_model="numpy")
 def _blockers_from(
     table, start, triangle, base, cell_column, height, gradient, link, patch, step, headroom,
-    beside, own_start, own_walls, end_start, floor_ends, polygon, spare, edge, near, blocker_start, rows, c,
+    beside, cells, own_start, own_walls, end_start, floor_ends, polygon, spare, edge, near, list_start, rows, i,
 ):  # fmt: skip
-    """Fill in the lists from cell ``c`` on, as far as there are rows; returns the first cell that is left."""
+    """Fill in the lists of ``cells`` from the i-th on, as far as there are rows; returns the first that is
+    left."""
     half = 0.5 * patch.side
-    while c < cell_column.shape[0]:
-        count = 0
-        if beside[c] > 0:
-            column = cell_column[c]
-            x, y = middle_of(patch, column)
-            z, p, q = height[c], gradient[c, 0], gradient[c, 1]
-            for d in range(-1, 8):
-                dx, dy, n, known = _square(link, c, d)
-                there = column + dx * patch.ny + dy
-                if n >= 0:
-                    for k in range(own_start[n], own_start[n + 1]):
-                        count = put(
-                            near, count,
-                            own_walls[k, 0], own_walls[k, 1], own_walls[k, 2], own_walls[k, 3],
-                        )  # fmt: skip
-                elif not known and start[there] < start[there + 1]:
-                    rx, ry = x + dx * patch.side, y + dy * patch.side
-                    rise = (p * dx + q * dy) * half
-                    low = rise + wall_base(table, start, triangle, there, rx, ry, z + rise, patch.side, step)
-                    count = _walls_in_square(
-                        table, start, triangle, there, rx, ry, x, y, z, p, q, low, headroom, patch.side,
-                        polygon, spare, near, count,
+    while i < cells.shape[0]:
+        c, count = cells[i], 0
+        column = cell_column[c]
+        x, y = middle_of(patch, column)
+        z, p, q = height[c], gradient[c, 0], gradient[c, 1]
+        for d in range(-1, 8):
+            dx, dy, n, known = _square(link, c, d)
+            there = column + dx * patch.ny + dy
+            if n >= 0:
+                for k in range(own_start[n], own_start[n + 1]):
+                    count = put(
+                        near, count,
+                        own_walls[k, 0], own_walls[k, 1], own_walls[k, 2], own_walls[k, 3],
                     )  # fmt: skip
-            walls = count
-            for d in range(-1, 8 if beside[c] == 2 else -1):
-                dx, dy, n, known = _square(link, c, d)
-                if d >= 0 and (n >= 0 or known):
-                    continue
-                there = column + dx * patch.ny + dy
-                for k in range(end_start[there], end_start[there + 1]):
-                    end = floor_ends[k]
-                    ax, ay, bx, by = end[EDGE], end[EDGE + 1], end[EDGE + 2], end[EDGE + 3]
-                    level = z + p * (0.5 * (ax + bx) - x) + q * (0.5 * (ay + by) - y)
-                    if abs(end[MIDDLE] - level) > step + half * (abs(p) + abs(q)) + TOUCH:
-                        continue
-                    if not lies_on(near, walls, ax, ay, bx, by):
-                        count = put(near, count, end[0], end[1], end[2], end[3])
-            for d in range(4):
-                if link[c, d] >= 0:
-                    continue
-                dx = (1 if d == 0 else 0) - (1 if d == 2 else 0)
-                dy = (1 if d == 1 else 0) - (1 if d == 3 else 0)
-                if comes_near(near, count, x, y, x + dx * patch.side, y + dy * patch.side):
-                    continue
-                # something that is no edge of the floor ends it: a low obstacle without floor on top
-                t = floor_end(
-                    table, start, triangle, patch, x, y, d, z, p, q, step, headroom, edge
+            elif not known and start[there] < start[there + 1]:
+                rx, ry = x + dx * patch.side, y + dy * patch.side
+                rise = (p * dx + q * dy) * half
+                low = rise + wall_base(table, start, triangle, there, rx, ry, z + rise, patch.side, step)
+                count = _walls_in_square(
+                    table, start, triangle, there, rx, ry, x, y, z, p, q, low, headroom, patch.side,
+                    polygon, spare, near, count,
                 )  # fmt: skip
-                count = put(near, count, x + t * dx, y + t * dy, x + t * dx, y + t * dy)
-            count = sort_and_thin(near, count)
-        end = keep(rows, blocker_start[c], near, count)
+        walls = count
+        for d in range(-1, 8 if beside[c] == 2 else -1):
+            dx, dy, n, known = _square(link, c, d)
+            if d >= 0 and (n >= 0 or known):
+                continue
+            there = column + dx * patch.ny + dy
+            for k in range(end_start[there], end_start[there + 1]):
+                end = floor_ends[k]
+                ax, ay, bx, by = end[EDGE], end[EDGE + 1], end[EDGE + 2], end[EDGE + 3]
+                level = z + p * (0.5 * (ax + bx) - x) + q * (0.5 * (ay + by) - y)
+                if abs(end[MIDDLE] - level) > step + half * (abs(p) + abs(q)) + TOUCH:
+                    continue
+                if not lies_on(near, walls, ax, ay, bx, by):
+                    count = put(near, count, end[0], end[1], end[2], end[3])
+        for d in range(4):
+            if link[c, d] >= 0:
+                continue
+            dx = (1 if d == 0 else 0) - (1 if d == 2 else 0)
+            dy = (1 if d == 1 else 0) - (1 if d == 3 else 0)
+            if comes_near(near, count, x, y, x + dx * patch.side, y + dy * patch.side):
+                continue
+            # something that is no edge of the floor ends it: a low obstacle without floor on top
+            t = floor_end(
+                table, start, triangle, patch, x, y, d, z, p, q, step, headroom, edge
+            )  # fmt: skip
+            count = put(near, count, x + t * dx, y + t * dy, x + t * dx, y + t * dy)
+        count = sort_and_thin(near, count)
+        end = keep(rows, list_start[i], near, count)
         if end < 0:
-            return c
-        c += 1
-        blocker_start[c] = end
-    return c
+            return i
+        i += 1
+        list_start[i] = end
+    return i
+
+
+@kernel
+def _put_marked(mark, marked):
+    """Put the numbers of those that have a ``mark`` into ``marked``."""
+    count = 0
+    for c in range(mark.shape[0]):
+        if mark[c] != 0:
+            marked[count] = c
+            count += 1
+
+
+@kernel
+def _leave_out_empty(list_cell, list_start):
+    """Leave out empty lists, in place; returns how many lists there are then."""
+    lists = 0
+    for i in range(list_cell.shape[0]):
+        if list_start[i + 1] > list_start[lists]:
+            list_cell[lists], list_start[lists + 1] = list_cell[i], list_start[i + 1]
+            lists += 1
+    return lists
 
 
 @allocating_kernel(error_model="numpy", nogil=True)
 def find_blockers(table, start, triangle, base, cell_column, height, gradient, link, patch, step, headroom):
-    """The lists of all cells: those of cell c are ``blocker[blocker_start[c]:blocker_start[c + 1]]``.
+    """The lists of all cells that have one: list i, ``blocker[list_start[i]:list_start[i + 1]]``, is that of
+    cell ``list_cell[i]``.
 
     The arrays are those of `navmesh.level.raster`, `navmesh.surface.floors` and `navmesh.surface.walls`.
-    Returns blocker_start (n + 1,) int32 and blocker (k, 4) float64 [m]: x, y of both ends of a segment,
-    relative to the grid's corner.
+    Returns list_cell (l,) int32, rising, list_start (l + 1,) int32 and blocker (k, 4) float64 [m]: x, y of
+    both ends of a segment, relative to the grid's corner.
     """
     cells = cell_column.shape[0]
     most = 0  # triangles in a column
@@ -244,26 +296,32 @@ def find_blockers(table, start, triangle, base, cell_column, height, gradient, l
             break
         own_walls = twice(own_walls)
 
-    beside, asked = np.empty(cells, np.uint8), np.empty((start.shape[0] - 1, 2))
-    asked[:, 0], asked[:, 1] = np.inf, -np.inf
-    _heights_to_ask(link, base, cell_column, height, gradient, start, patch, step, beside, asked)
-    end_start, floor_ends = find_floor_ends(table, start, triangle, asked, patch, step, headroom)
+    beside, row = np.zeros(cells, np.uint8), np.full(start.shape[0] - 1, -1, np.int32)
+    count, cut_off = _find_beside(link, base, beside)
+    list_cell, asked = np.empty(count, np.int32), np.empty((9 * cut_off, 2))
+    _put_marked(beside, list_cell)
+    _heights_to_ask(
+        link, cell_column, height, gradient, start, patch, step, beside, list_cell, row, asked
+    )  # fmt: skip
+    end_start, floor_ends = find_floor_ends(table, start, triangle, row, asked, patch, step, headroom)
     ends = 0
     for column in range(start.shape[0] - 1):
         ends = max(ends, end_start[column + 1] - end_start[column])
 
-    blocker_start, blocker = np.zeros(cells + 1, np.int32), np.empty((room, 4))
+    list_start, blocker = np.zeros(count + 1, np.int32), np.empty((room, 4))
     near = np.empty((9 * (_OUTLINE * most + ends) + 4, 4))
-    c = 0
+    i = 0
     while True:
-        c = _blockers_from(
+        i = _blockers_from(
             table, start, triangle, base, cell_column, height, gradient, link, patch, step, headroom,
-            beside, own_start, own_walls, end_start, floor_ends, polygon, spare, edge, near,
-            blocker_start, blocker, c,
+            beside, list_cell, own_start, own_walls, end_start, floor_ends, polygon, spare, edge, near,
+            list_start, blocker, i,
         )  # fmt: skip
-        if c == cells:
-            return blocker_start, blocker[: blocker_start[cells]].copy()
+        if i == count:
+            break
         blocker = twice(blocker)
+    lists = _leave_out_empty(list_cell, list_start)
+    return list_cell[:lists].copy(), list_start[: lists + 1].copy(), blocker[: list_start[lists]].copy()
 
 
 @kernel(error_model="numpy")

@@ -91,14 +91,15 @@ class FoundCells(NamedTuple):
     height: np.ndarray
     gradient: np.ndarray
     link: np.ndarray
-    blocker_start: np.ndarray
+    list_cell: np.ndarray
+    list_start: np.ndarray
     blocker: np.ndarray
 
     def packed(self) -> Cells:
-        """The same with their floors packed, and lists only of the cells that have one."""
+        """The same with their floors packed."""
         return Cells(
             self.column_start, storeys_of(self.column_start, self.cell_column, self.link),
-            *lists_of(np.diff(self.blocker_start)), self.blocker,
+            self.list_cell, self.list_start, self.blocker,
             pack_floors(self.column_start, self.height, self.gradient),
         )  # fmt: skip
 
@@ -171,7 +172,7 @@ def found_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window |
     walls.cut_links_at_walls(
         table, start, triangle, base, cell_column, height, gradient, link, patch, rules.headroom
     )
-    blocker_start, blocker = blockers.find_blockers(
+    lists = blockers.find_blockers(
         table,
         start,
         triangle,
@@ -185,7 +186,7 @@ def found_cells(terrain: Terrain, rules: WalkRules, grid: Grid, window: Window |
         rules.headroom,
     )
     check_storeys(column_start, terrain.name)
-    cells = FoundCells(column_start, cell_column, height, gradient, link, blocker_start, blocker)
+    cells = FoundCells(column_start, cell_column, height, gradient, link, *lists)
     if whole:
         check_floor(cells, terrain, rules)
     return cells

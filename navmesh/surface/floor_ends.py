@@ -33,6 +33,8 @@ _UNKNOWN, _SHARED, _ALONE = 0, 1, 2
 edge."""
 _PIECE = 0.5
 """Share of a cell: an edge of the floor is asked this often whether there is floor beyond it."""
+_KNOWN = 4096
+"""Parts of edges that are remembered: more than the columns along a side of most levels come to."""
 _BEYOND = 1e-3
 """[m] beyond an edge: there is floor there, or the edge is where it ends."""
 
@@ -79,9 +81,15 @@ def _is_shared(table, start, triangle, column, f, i, j):
 
 
 @kernel(error_model="numpy")
-def _ends_of_column(table, start, triangle, shared, column, low, high, patch, step, headroom, ends, count):
+def _ends_of_column(
+    table, start, triangle, shared, known, known_part, column, low, high, patch, step, headroom, ends, count
+):  # fmt: skip
     """Put the floor ends in the square of ``column``, between two heights, behind the first ``count`` rows;
-    returns their number, which is greater than there are rows where those do not suffice."""
+    returns their number, which is greater than there are rows where those do not suffice.
+
+    An edge on the border of two columns is in both of their squares: what was found for the one is ``known``
+    (`_KNOWN`, 3), the edge with the rows from the first up to the last, and ``known_part`` of the edge.
+    """
     half = 0.5 * patch.side
     x, y = middle_of(patch, column)
     for k in range(start[column], start[column + 1]):
@@ -108,6 +116,15 @@ def _ends_of_column(table, start, triangle, shared, column, low, high, patch, st
                 shared[f, m] = _SHARED if found else _ALONE
                 if found:
                     continue
+            edge = 3 * np.int64(f) + m
+            slot = (edge + int(_KNOWN * last)) & (_KNOWN - 1)
+            if known[slot, 0] == edge and known_part[slot, 0] == first and known_part[slot, 1] == last:
+                for at in range(known[slot, 1], known[slot, 2]):
+                    for number in range(END if count < ends.shape[0] else 0):
+                        ends[count, number] = ends[at, number]
+                    count += 1
+                continue
+            begin = count
             third = 3 * m - 3 if m > 0 else 6
             ox, oy = (by - ay) / length, (ax - bx) / length  # to the side of the edge away from the face
             if (table[f, third] - ax) * ox + (table[f, third + 1] - ay) * oy > 0.0:
@@ -140,19 +157,24 @@ def _ends_of_column(table, start, triangle, shared, column, low, high, patch, st
                         ends[count, MIDDLE] = middle
                     count += 1
                     begun = -1.0
+            if count <= ends.shape[0]:
+                known[slot, 0], known[slot, 1], known[slot, 2] = edge, begin, count
+                known_part[slot, 0], known_part[slot, 1] = first, last
     return count
 
 
 @kernel(error_model="numpy")
-def _ends_from(table, start, triangle, shared, asked, patch, step, headroom, end_start, ends, column):
+def _ends_from(
+    table, start, triangle, shared, known, known_part, row, asked, patch, step, headroom, end_start, ends, column
+):  # fmt: skip
     """Fill in the columns from ``column`` on, as far as there are rows; returns the first that is left."""
-    while column < asked.shape[0]:
-        count = end_start[column]
-        low, high = asked[column, 0], asked[column, 1]
-        if low <= high:
+    while column < row.shape[0]:
+        count, at = end_start[column], row[column]
+        if at >= 0:
             count = _ends_of_column(
-                table, start, triangle, shared, column, low, high, patch, step, headroom, ends, count
-            )
+                table, start, triangle, shared, known, known_part, column, asked[at, 0], asked[at, 1],
+                patch, step, headroom, ends, count,
+            )  # fmt: skip
             if count > ends.shape[0]:
                 return column
         column += 1
@@ -161,22 +183,24 @@ def _ends_from(table, start, triangle, shared, asked, patch, step, headroom, end
 
 
 @allocating_kernel(error_model="numpy")
-def find_floor_ends(table, start, triangle, asked, patch, step, headroom):
+def find_floor_ends(table, start, triangle, row, asked, patch, step, headroom):
     """The floor ends in the squares of all columns: those of column c are
     ``ends[end_start[c]:end_start[c + 1]]``.
 
-    The arrays are those of `navmesh.level.raster`. ``asked`` (columns, 2) [m] are the heights between which
-    floor is looked at; nothing is where the first is greater. Returns end_start (columns + 1,) int32 and ends
-    (k, `END`) float64.
+    The arrays are those of `navmesh.level.raster`. ``row`` (columns,) int32 says which row of ``asked`` (r, 2)
+    [m] has the heights between which floor is looked at, -1 for none. Returns end_start (columns + 1,) int32
+    and ends (k, `END`) float64.
     """
-    end_start = np.zeros(asked.shape[0] + 1, np.int32)
+    end_start = np.zeros(row.shape[0] + 1, np.int32)
     ends = np.empty((64, END))
     shared = np.zeros((table.shape[0], 3), np.uint8)
+    known, known_part = np.full((_KNOWN, 3), -1, np.int64), np.empty((_KNOWN, 2))
     column = 0
     while True:
         column = _ends_from(
-            table, start, triangle, shared, asked, patch, step, headroom, end_start, ends, column
-        )
-        if column == asked.shape[0]:
+            table, start, triangle, shared, known, known_part, row, asked, patch, step, headroom,
+            end_start, ends, column,
+        )  # fmt: skip
+        if column == row.shape[0]:
             return end_start, ends
         ends = twice(ends)

@@ -20,7 +20,6 @@ from navmesh.surface.build import (
     check_floor,
     find_cells,
     found_cells,
-    lists_of,
     patch_around,
     reach_of,
 )
@@ -77,15 +76,15 @@ def _strip(terrain: Terrain, rules: WalkRules, grid: Grid, first: int, last: int
     start = found.column_start[:-1].reshape(patch.nx, patch.ny)
     begin, end = start[first - patch.left, 0], start[last - patch.left, 0]
     start = start[first - patch.left : last - patch.left, -patch.near : ny - patch.near] - begin
-    lists = found.blocker_start[begin : end + 1]
-    list_cell, list_start = lists_of(np.diff(lists))
+    lists = slice(*np.searchsorted(found.list_cell, (begin, end)))
+    rows = found.list_start[lists.start], found.list_start[lists.stop]
     start = start.ravel()
     return Cells(
         start,
         storeys_of(found.column_start, found.cell_column, found.link)[begin:end].copy(),
-        list_cell,
-        list_start[:-1],
-        found.blocker[lists[0] : lists[-1]].copy(),
+        found.list_cell[lists] - begin,
+        found.list_start[lists] - rows[0],
+        found.blocker[rows[0] : rows[1]].copy(),
         pack_floors(
             np.append(start, np.int32(end - begin)), found.height[begin:end], found.gradient[begin:end]
         ),

@@ -51,7 +51,7 @@ def _pairs_in(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The `border_pairs` in the columns of ``window``, by the cells' numbers in the whole."""
     field, where = cells_in(surface, tuple(window.tolist()))
-    key, pair, clearance = border_pairs(label[where], field)
+    key, pair, clearance = border_pairs(label[where], field, 0, len(where))
     return key, where[pair], clearance
 
 

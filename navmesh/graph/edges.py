@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from navmesh.surface.clearance_field import centre_of
+from navmesh.surface.columns import column_of
 from navmesh.surface.ridges import half_width, widest_through
 from navmesh.surface.storeys import over
 from navmesh.threads import in_threads, shares
@@ -21,11 +22,14 @@ _FINE = 0.002
 
 
 @allocating_kernel(nogil=True)
-def border_pairs(label, field):
-    """The pairs of linked cells with different labels: for each a key, the lesser label in the upper half
-    (k,) int64, the cells (k, 2) int32, that of the lesser label first, and the lesser clearance (k,)."""
-    borders, column = 0, np.int64(0)
-    for c in range(label.shape[0]):
+def border_pairs(label, field, first_cell, last_cell):
+    """The pairs of linked cells with different labels, for cells from ``first_cell`` up to, not including,
+    ``last_cell`` and those ahead of them: for each a key, the lesser label in the upper half (k,) int64, the
+    cells (k, 2) int32, that of the lesser label first, and the lesser clearance (k,)."""
+    borders = 0
+    begin = column_of(field, first_cell) if first_cell > 0 else np.int64(0)
+    column = begin
+    for c in range(first_cell, last_cell):
         while field.column_start[column + 1] <= c:
             column += 1
         for d in range(2):
@@ -35,8 +39,8 @@ def border_pairs(label, field):
     key = np.empty(borders, np.int64)
     pair = np.empty((borders, 2), np.int32)
     width = np.empty(borders)
-    k, column = 0, np.int64(0)
-    for c in range(label.shape[0]):
+    k, column = 0, begin
+    for c in range(first_cell, last_cell):
         while field.column_start[column + 1] <= c:
             column += 1
         for d in range(2):
@@ -167,5 +171,9 @@ def join_nodes(
     that passes is max((Rᵢ + Rⱼ - d)/2, the clearance of the best pair of linked cells on the labels'
     border); where the sides of a passage face each other, the clearance in its middle instead of the cells'.
     """
-    key, pair, width = border_pairs(label, field)
+    parts = pairwise(shares(len(label), threads))
+    found = in_threads(lambda *part: border_pairs(label, field, *part), list(parts), threads)
+    key, pair, width = (
+        np.concatenate(each) if len(found) > 1 else each[0] for each in zip(*found, strict=True)
+    )
     return rows_of_edges(len(place), *measure_edges(key, pair, width, field, place, threads))

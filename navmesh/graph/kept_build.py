@@ -21,7 +21,16 @@ from navmesh.level.terrain import Terrain
 from navmesh.obstacles.rim_samples import RimSamples, renew_rim_samples, take_rim_samples
 from navmesh.obstacles.rules import ObstacleRules
 from navmesh.rules import WalkRules
-from navmesh.surface.build import Grid, Window, find_cells, lay_grid, patch_around, reach_of, surface_of
+from navmesh.surface.build import (
+    Grid,
+    Window,
+    find_cells,
+    lay_grid,
+    patch_around,
+    reach_of,
+    surface_with_nearest,
+    without_nearest,
+)
 from navmesh.surface.differences import differing_window
 from navmesh.surface.renewal import cells_of_surface, renew_surface
 from navmesh.surface.strips import all_cells
@@ -79,14 +88,15 @@ def grid_for(terrain: Terrain, rules: WalkRules, extent: np.ndarray | None, grow
 
 def build_whole(terrain: Terrain, rules: WalkRules, grid: Grid, threads: int = 1) -> Built:
     """Surface, discs and edges of ``terrain``. Raises `NavmeshError` where there are none."""
-    surface = surface_of(all_cells(terrain, rules, grid, threads), grid, threads)
+    surface = surface_with_nearest(all_cells(terrain, rules, grid, threads), grid, threads)
     return _checked(_with_discs(rules, grid, surface, threads), terrain, rules)
 
 
 def _with_discs(rules: WalkRules, grid: Grid, surface: Surface, threads: int = 1) -> Built:
     cell, place, maker, label = all_nodes(surface, rules.min_radius)
     nodes = Nodes(cell, place, maker, label, surface.lifted(place[:, :2], cell))
-    return Built(grid, surface, nodes, join_nodes(nodes.label, surface.field, nodes.place, threads))
+    edges = join_nodes(nodes.label, surface.field, nodes.place, threads)
+    return Built(grid, without_nearest(surface), nodes, edges)
 
 
 def _checked(built: Built, terrain: Terrain, rules: WalkRules) -> Built:

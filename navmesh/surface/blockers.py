@@ -123,8 +123,8 @@ def _own_walls(
 
 @kernel(error_model="numpy")
 def _find_beside(link, base, beside):
-    """Say which cells are ``beside`` something (1), and which of them not linked to all sides (2). Returns how
-    many there are of both, and of the latter."""
+    """Say which cells are ``beside`` something (1), and which of them are not linked to all sides (2).
+    Returns how many there are of both, and of the latter."""
     for c in range(link.shape[0]):  # what may be: at most two links from what is not as on an open floor
         if base[c] < np.inf or min(link[c, 0], link[c, 1], link[c, 2], link[c, 3]) < 0:
             beside[c] = 1
@@ -185,7 +185,8 @@ def _heights_to_ask(link, cell_column, height, gradient, start, patch, step, bes
 @kernel(error_model="numpy")
 def _blockers_from(
     table, start, triangle, base, cell_column, height, gradient, link, patch, step, headroom,
-    beside, cells, own_start, own_walls, end_start, floor_ends, polygon, spare, edge, near, list_start, rows, i,
+    beside, cells, own_start, own_walls, end_start, floor_ends, polygon, spare, edge, near,
+    list_start, rows, i,
 ):  # fmt: skip
     """Fill in the lists of ``cells`` from the i-th on, as far as there are rows; returns the first that is
     left."""

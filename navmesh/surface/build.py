@@ -6,7 +6,7 @@ found, near and far; it is a fiftieth of the work.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -38,10 +38,14 @@ __all__ = [
     "patch_around",
     "reach_of",
     "surface_of",
+    "surface_with_nearest",
     "whole_patch",
+    "without_nearest",
 ]
 
 _MOST_COLUMNS = 400_000_000
+_MOST_KEPT = 4_000_000
+"""Cells whose nearest places are kept during a build, which saves a tenth of it: 64 MB."""
 
 Window = tuple[int, int, int, int]
 """Columns from (ix, iy) up to, not including, (ix, iy)."""
@@ -205,6 +209,17 @@ def check_floor(cells: Cells | FoundCells, terrain: Terrain, rules: WalkRules) -
 
 def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> Surface:
     """The surface that ``cells`` make up."""
+    return without_nearest(surface_with_nearest(cells, grid, threads))
+
+
+def without_nearest(surface: Surface) -> Surface:
+    """``surface`` as it is kept: `nearest` is recalled."""
+    return replace(surface, kept_nearest=np.empty((0, 2)))
+
+
+def surface_with_nearest(cells: Cells, grid: Grid, threads: int = 1) -> Surface:
+    """The surface that ``cells`` make up, for who is to measure all of it: with `nearest` kept, unless it has
+    more than `_MOST_KEPT` cells."""
     h, (nx, ny) = grid.resolution, grid.shape
     cell_column = columns_of_all(cells.column_start)
     nearest = blockers.nearest_blockers(
@@ -225,12 +240,13 @@ def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> Surface:
         storey=cells.storey,
         clearance=free,
         choice=choice,
-        kept_nearest=np.empty((0, 2)),
+        kept_nearest=nearest if len(nearest) <= _MOST_KEPT else np.empty((0, 2)),
         source=source,
         list_cell=cells.list_cell,
         list_start=cells.list_start,
         blocker=cells.blocker,
     )
+    del nearest
     parts = pairwise(shares(len(surface), threads))
     in_threads(lambda *part: clearance.settle_clearance(surface.field, *part), list(parts), threads)
     return surface

@@ -143,11 +143,15 @@ def spread_clearance(column_start, cell_column, storey, nearest, source, resolut
 def settle_clearance(field, first, last):
     """Measure the clearance of those of the cells from ``first`` up to, not including, ``last`` that are
     within two cells of where walking ends, in place, in the lists of the cells around: what was carried over
-    the links is the nearest place of another cell."""
+    the links is the nearest place of another cell. So is `nearest`, if it is kept."""
     for c in range(first, last):
         if field.clearance[c] < 2.0 * field.cell:
             x, y = centre_of(field, c)
-            field.clearance[c] = min(field.clearance[c], gap_at(field, c, x, y)[0])
+            gap, at_x, at_y = gap_at(field, c, x, y)
+            if gap < field.clearance[c]:
+                field.clearance[c] = gap
+                if field.nearest.shape[0] > 0:
+                    field.nearest[c, 0], field.nearest[c, 1] = at_x - x, at_y - y
 
 
 @kernel(nogil=True)

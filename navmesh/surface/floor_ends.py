@@ -165,7 +165,8 @@ def _ends_of_column(
 
 @kernel(error_model="numpy")
 def _ends_from(
-    table, start, triangle, shared, known, known_part, row, asked, patch, step, headroom, end_start, ends, column
+    table, start, triangle, shared, known, known_part, row, asked, patch, step, headroom,
+    end_start, ends, column,
 ):  # fmt: skip
     """Fill in the columns from ``column`` on, as far as there are rows; returns the first that is left."""
     while column < row.shape[0]:
@@ -187,9 +188,9 @@ def find_floor_ends(table, start, triangle, row, asked, patch, step, headroom):
     """The floor ends in the squares of all columns: those of column c are
     ``ends[end_start[c]:end_start[c + 1]]``.
 
-    The arrays are those of `navmesh.level.raster`. ``row`` (columns,) int32 says which row of ``asked`` (r, 2)
-    [m] has the heights between which floor is looked at, -1 for none. Returns end_start (columns + 1,) int32
-    and ends (k, `END`) float64.
+    The arrays are those of `navmesh.level.raster`. ``row`` (columns,) int32 says which row of ``asked``
+    (r, 2) [m] has the heights between which floor is looked at, -1 for none. Returns end_start (columns + 1,)
+    int32 and ends (k, `END`) float64.
     """
     end_start = np.zeros(row.shape[0] + 1, np.int32)
     ends = np.empty((64, END))

@@ -177,12 +177,19 @@ def find_walls(table, start, triangle, cell_column, height, gradient, patch, ste
         column = cell_column[c]
         if start[column + 1] - start[column] == 1:
             continue
-        x, y = middle_of(patch, column)
         z = height[c]
         slope = (abs(gradient[c, 0]) + abs(gradient[c, 1])) * half
         found = False
+        x = y = 0.0
+        near = False  # whether anything is as high and as low as that anywhere
         for k in range(start[column], start[column + 1]):
-            low, high = range_in_column(table, triangle[k], x, y, half)
+            f = triangle[k]
+            if table[f, HIGHEST] <= z + step or table[f, LOWEST] >= z + headroom + slope:
+                continue
+            if not near:
+                near = True
+                x, y = middle_of(patch, column)
+            low, high = range_in_column(table, f, x, y, half)
             if high > z + step and low < z + headroom + slope:
                 found = True
                 break

@@ -5,7 +5,14 @@ import pytest
 
 from navmesh.graph.kernel_arrays import net_of
 from navmesh.surface.blockers import nearest_blockers
-from navmesh.surface.build import find_cells, lay_grid, surface_of, whole_patch
+from navmesh.surface.build import (
+    find_cells,
+    lay_grid,
+    surface_of,
+    surface_with_nearest,
+    whole_patch,
+    without_nearest,
+)
 from navmesh.surface.clearance import spread_clearance
 from navmesh.surface.clearance_field import centre_of, gap_at
 from navmesh.surface.recall import nearest_of, nearly_nearest_of
@@ -50,6 +57,15 @@ def test_all_are_recalled_as_they_were_carried(seed):
     grid = lay_grid(level.bounds, RULES, level.name)
     surface = surface_of(find_cells(level, RULES, grid), grid)
     np.testing.assert_array_equal(surface.nearest, _carried(surface, grid))
+
+
+@pytest.mark.parametrize("seed", [2, 4, 6])
+def test_those_that_a_build_keeps_while_it_measures_are_those_that_are_recalled(seed):
+    level = terrain(*random_level(seed))
+    grid = lay_grid(level.bounds, RULES, level.name)
+    surface = surface_with_nearest(find_cells(level, RULES, grid), grid)
+    assert len(surface.kept_nearest) == len(surface)
+    np.testing.assert_array_equal(surface.kept_nearest, without_nearest(surface).nearest)
 
 
 @pytest.mark.parametrize("level", [YARD, random_level(3)])

@@ -98,7 +98,7 @@ def test_edges_of_pieces_are_those_that_the_whole_would_have():
     net, pieces = net_of(graph), zones_of(graph).switches.first_piece
     place = np.column_stack([net.nodes["position"][:, :2], graph.radii])
     surface = graph.surface
-    key, pair, clear = border_pairs(graph.label, surface.field)
+    key, pair, clear = border_pairs(graph.label, surface.field, 0, len(surface))
     ends, width, gate, _ = measure_edges(key, pair, clear, surface.field, place)
     found = {(a, b): (wide, *where) for a, b, wide, *where, _, _ in edges_of_pieces(graph) if a < b}
     wanted = {

@@ -36,6 +36,7 @@ __all__ = [
     "check_picture",
     "find_path",
     "list_obstacles",
+    "print_values",
     "ready",
     "run_mission_file",
     "serve_worlds",
@@ -93,7 +94,7 @@ def bake_level(
         "seconds": round(seconds, 3),
         "terrain_digest": terrain.digest,
     }
-    return Result(values, True, lambda: _print_values(values))
+    return Result(values, True, lambda: print_values(values))
 
 
 def list_obstacles(level: Path, up: str | None, scale: float | None) -> Result:
@@ -344,6 +345,7 @@ def _kinds(graph: navmesh.NodeGraph) -> list[str]:
     return sorted({str(kind) for kind in graph.obstacles.affordance})
 
 
-def _print_values(values: Mapping[str, Any]) -> None:
+def print_values(values: Mapping[str, Any]) -> None:
+    """Print one value a line, for people."""
     for name, value in values.items():
         print(f"{name:15} {value}")

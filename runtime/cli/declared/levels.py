@@ -20,7 +20,12 @@ from runtime.cli.starting import begin, finish, reads
 
 def bake(
     level: Annotated[Path, typer.Argument(callback=reads, help=MESH_HELP)],
-    output: Annotated[Path, typer.Option("--output", "-o", help="Output file for the baked graph (.npz).")],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output", "-o", help="Output file for the baked graph (.npz); for an open world a folder."
+        ),
+    ],
     up: UpOption = None,
     scale: ScaleOption = None,
     tags: Annotated[
@@ -35,16 +40,50 @@ def bake(
     headroom: HeadroomOption = None,
     resolution: ResolutionOption = None,
     threads: Annotated[int, typer.Option(min=1, help="Threads that build; the graph is the same.")] = 1,
+    open_world: Annotated[
+        bool,
+        typer.Option(
+            "--open-world",
+            help="Write a folder from which a game loads what is around its players.",
+        ),
+    ] = False,
+    radius: Annotated[
+        list[float] | None,
+        typer.Option(
+            metavar="<float>",
+            help="[m] With --open-world: radius of a body; give it again for others; default: 0.3.",
+        ),
+    ] = None,
+    side: Annotated[
+        float | None,
+        typer.Option(help="[m] With --open-world: side of the squares that it is cut into; default: 60."),
+    ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Build a level's navigation graph and write it to a file. The defaults suit a person."""
+    """Build a level's navigation graph and write it to a file, or the folder of an open world. The defaults
+    suit a person."""
     rules = {
         "max_slope_deg": max_slope_deg,
         "max_step": max_step,
         "headroom": headroom,
         "resolution": resolution,
     }
-    finish(begin().bake_level(level, output, up, scale, tags, rules, threads), as_json)
+    commands = begin()
+    if not open_world:
+        for option, given in (("--radius", bool(radius)), ("--side", side is not None)):
+            if given:
+                raise typer.BadParameter(f"{option}: is for open worlds; give --open-world, too")
+        finish(commands.bake_level(level, output, up, scale, tags, rules, threads), as_json)
+        return
+    from runtime.cli import world_commands
+
+    world_commands.refuse_tags(level, tags)
+    finish(
+        world_commands.bake_world(
+            level, output, up, scale, radius or [0.3], 60.0 if side is None else side, rules, threads
+        ),
+        as_json,
+    )
 
 
 def obstacles(

@@ -77,6 +77,7 @@ def interrupted(forks):
 
 COMMANDS = {
     "bake": ("bake", "level.obj", "-o", "result.npz"),
+    "bake an open world": ("bake", "level.obj", "--open-world", "-o", "world"),
     "run": ("run", "mission.yaml", "--out", "out"),
     "view": ("view", "trace.npz", "-o", "result.html"),
     "export": ("export", "trace.npz", "-o", "result.glb"),

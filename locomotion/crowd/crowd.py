@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import navmesh
 from locomotion.crowd import layout as at
+from locomotion.crowd.discs import add_discs, write_discs
 from locomotion.crowd.gates import ABREAST, Gates, find_gates, foresee_gates
 from locomotion.crowd.queueing import trace_gates
 from locomotion.crowd.tick import advance_all
@@ -103,6 +104,12 @@ class Crowd:
     def yaws(self) -> NDArray[np.float64]:
         """(n,) float64 [rad, -π to π]."""
         return self.rows[:, at.YAW]
+
+    def discs(self) -> NDArray[np.float64]:
+        """(n, 6) the bodies as `lead` takes those of others."""
+        discs = np.empty((self._count, 6))
+        write_discs(self._table, self._origin, discs)
+        return discs
 
     def add(
         self, position: ArrayLike, radius: float = 0.3, yaw: float = 0.0, acceleration: float = 4.0
@@ -297,20 +304,13 @@ class Crowd:
         self.rows[index, [at.GATE_START, at.GATE_COUNT]] = self._crossings.region(index)
 
     def lead(self, bodies: NDArray[np.float64]) -> None:
-        """Bodies that others move and the crowd has to avoid, until the next call.
-
-        bodies: (k, 6) float64: x, y, z of the floor under each [m], its velocity in x and y [m/s], its radius
-        [m].
-        """
+        """Bodies that others move and the crowd has to avoid, until the next call: discs (k, 6), see
+        `locomotion.crowd.discs`."""
         while len(self._table) < self._count + len(bodies):
             self._double()
         self._led = len(bodies)
         rows = self._table[self._count : self._count + self._led]
-        rows[:] = 0.0
-        rows[:, at.X : at.Z + 1] = bodies[:, :3] - self._origin
-        rows[:, [at.VX, at.VY]] = rows[:, [at.GO_X, at.GO_Y]] = bodies[:, 3:5]
-        rows[:, at.RADIUS], rows[:, at.MODE] = bodies[:, 5], at.LED
-        rows[:, at.WEIGHT], rows[:, at.CELL] = at.UNMOVED, -1.0
+        add_discs(rows, self._origin, bodies)
 
     def foresee(self, graph: navmesh.NodeGraph) -> None:
         """Find the gates of a ``graph`` that is going to be changed to; may be called in another thread."""

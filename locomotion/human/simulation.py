@@ -13,7 +13,10 @@ from locomotion.body.models import person_on
 from locomotion.body.physics import physics_size
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run import controller
+from locomotion.gaits.run.layout import LEFT_FOOT, RIGHT_FOOT
+from locomotion.gaits.walk.footholds import ground_at
 from locomotion.ground.ground import Ground, plane_lookup
+from surefoot.kernels import kernel
 
 __all__ = ["Simulation", "movements"]
 
@@ -113,12 +116,20 @@ def movements(bodies: Sequence[Simulation]) -> tuple[NDArray[np.float64], NDArra
     if not bodies:
         return np.empty((0, 3)), np.empty((0, 3))
     controls = np.concatenate([each.control for each in bodies]).reshape(len(bodies), -1)
-    places, velocities = controls[:, controller.COM].copy(), controls[:, controller.COM_VELOCITY]
+    places = controls[:, controller.COM].copy()
     if bodies[0].ground is None:
         places[:, 2] = 0.0
-        return places, velocities
-    places[:, 2] = bodies[0].ground.surface_below(places)[0]
-    for k in np.flatnonzero(np.isnan(places[:, 2])).tolist():
-        feet = bodies[k].control[controller.FEET]
-        places[k, 2] = min(feet[2], feet[5])
-    return places, velocities
+    else:
+        _put_on_ground(bodies[0].lookup, controls, places)
+    return places, controls[:, controller.COM_VELOCITY]
+
+
+@kernel
+def _put_on_ground(ground, controls, places):
+    """Lower ``places`` (n, 3), centres of mass, to the ground below, or where there is none to the lower
+    foot. ground: as in `ground_at`. controls: (n, k) as of `Simulation.control`."""
+    for k in range(len(places)):
+        height = ground_at(ground, places[k, 0], places[k, 1], places[k, 2])[0]
+        if math.isnan(height):
+            height = min(controls[k, RIGHT_FOOT + 2], controls[k, LEFT_FOOT + 2])
+        places[k, 2] = height

@@ -235,9 +235,8 @@ class SizedHuman:
 def movements_of(people: Sequence[SizedHuman]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """As `locomotion.human.simulation.movements`, of people of any sizes on the same level."""
     places, velocities = np.empty((len(people), 3)), np.empty((len(people), 3))
-    sizes = np.array([each.size for each in people])
-    for size in np.unique(sizes):
-        those = np.flatnonzero(sizes == size).tolist()
+    for size in {each.size for each in people}:
+        those = [k for k, each in enumerate(people) if each.size == size]
         own = movements([people[k].human.simulation for k in those])
         places[those], velocities[those] = size * own[0], Measure(size).root * own[1]
     return places, velocities

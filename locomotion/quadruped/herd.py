@@ -30,7 +30,13 @@ from locomotion.quadruped.idle import habits
 from locomotion.quadruped.motion import DT, begin_stop, stop_length
 from locomotion.quadruped.pool import Pool
 from locomotion.quadruped.pose import body_names, count_bodies, write_pose
-from locomotion.quadruped.predicted_discs import DISCS, between_feet, disc_radius, foretell_motion
+from locomotion.quadruped.predicted_discs import (
+    DISCS,
+    between_feet,
+    cover_with_discs,
+    disc_radius,
+    foretell_motion,
+)
 from locomotion.quadruped.script import Place, Script
 from locomotion.quadruped.tail import hang_tail
 from locomotion.quadruped.trail import Trail, kernel_ground
@@ -347,12 +353,9 @@ class Herd:
         feet: x, y, z [m], velocity of the root in x and y [m/s], radius [m]."""
         if not self.bodies:
             return np.empty((0, 6))
-        rows = np.zeros((len(self), DISCS, 6))
-        rows[:, :, :2] = between_feet(self.state[:, [at.X, at.Y]], self.state[:, [at.FRONT_X, at.FRONT_Y]])
-        rows[:, :, 2] = self.state[:, [at.HEIGHT]]
-        rows[:, :, 3:5] = self.state[:, None, at.RATE : at.RATE + 2]
-        rows[:, :, 5] = self._disc_radii[:, None]
-        return rows.reshape(-1, 6)
+        rows = np.empty((DISCS * len(self), 6))
+        cover_with_discs(self.state, self._disc_radii, rows)
+        return rows
 
     def foretold(self, index: int) -> NDArray[np.float64]:
         """(COUNT, DISCS, 2) [m] predicted places of an animal's discs, every `giving_way.STEP`, if it

@@ -13,9 +13,17 @@ from locomotion.quadruped.body_on_path import front_of, wanted_pose
 from locomotion.quadruped.footprint import fronts
 from locomotion.quadruped.motion import travel
 from locomotion.quadruped.script import Script
-from surefoot.kernels import allocating_kernel
+from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["DISCS", "between_feet", "disc_radius", "foretell_motion", "foretell_script", "nobody"]
+__all__ = [
+    "DISCS",
+    "between_feet",
+    "cover_with_discs",
+    "disc_radius",
+    "foretell_motion",
+    "foretell_script",
+    "nobody",
+]
 
 DISCS = 3
 """Number of discs that cover an animal on the ground: at the rear feet, the middle and the front feet."""
@@ -30,6 +38,20 @@ def disc_radius(body: Body) -> float:
 def between_feet(rear: NDArray[np.float64], front: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n, DISCS, 2) [m] the discs' centres, from the feet's midpoints (n, 2)."""
     return rear[:, None] + _SHARES * (front - rear)[:, None]
+
+
+@kernel
+def cover_with_discs(states, radii, rows):
+    """The discs that cover animals on the ground, `DISCS` for each, into ``rows`` (DISCS n, 6): x, y, z [m],
+    velocity of the root in x and y [m/s], radius [m]. states: (n, ROW) of a herd; radii: (n,) [m]."""
+    for k in range(len(states)):
+        st = states[k]
+        for disc in range(DISCS):
+            row, share = rows[DISCS * k + disc], _SHARES[disc, 0]
+            row[0] = st[at.X] + share * (st[at.FRONT_X] - st[at.X])
+            row[1] = st[at.Y] + share * (st[at.FRONT_Y] - st[at.Y])
+            row[2], row[3], row[4] = st[at.HEIGHT], st[at.RATE], st[at.RATE + 1]
+            row[5] = radii[k]
 
 
 @allocating_kernel

@@ -127,11 +127,11 @@ class People(Population):
         self._drivers = [each for each in self._drivers if each is not driver]
 
     def in_the_way(self) -> np.ndarray:
-        humans = [driver.human for driver in self._drivers]
-        rows = np.empty((len(humans), 6))
-        rows[:, :3], velocities = movements_of([driver.body for driver in self._drivers])
+        bodies = [driver.body for driver in self._drivers]
+        rows = np.empty((len(bodies), 6))
+        rows[:, :3], velocities = movements_of(bodies)
         rows[:, 3:5] = velocities[:, :2]
-        rows[[each.held for each in humans], 3:5] = 0.0
+        rows[[body.human.held for body in bodies], 3:5] = 0.0
         rows[:, 5] = PERSON_RULES["radius"]
         return rows
 

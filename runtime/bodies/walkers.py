@@ -77,10 +77,7 @@ class Walkers(Population):
         self.forget()
 
     def in_the_way(self) -> np.ndarray:
-        crowd = self.crowd
-        if not len(crowd):
-            return np.empty((0, 6))
-        return np.column_stack([crowd.positions, crowd.velocities, crowd.radii])
+        return self.crowd.discs()
 
     def remember(self) -> None:
         if len(self.crowd):

@@ -65,3 +65,19 @@ def test_discs_lie_from_the_rear_to_the_front_feet_and_touch_each_other():
 def test_around_one_that_is_alone_there_is_nobody():
     places, radii = nobody()
     assert places.shape == (COUNT, 0, 2) and radii.shape == (0,)
+
+
+def test_discs_of_several_are_those_of_each():
+    herd = Herd(plane())
+    bodies = [load_body(name) for name in ("dog", "horse", "cat")]
+    for number, body in enumerate(bodies):
+        herd.add(body, (4.0 * number, 1.0, 0.0), 0.4 * number)
+    herd.play(0, local_motion(DOG).script(herd.place(0), (0.4, 0.2, 0.8)))
+    for _ in range(40):
+        herd.tick()
+    for index, body in enumerate(bodies):
+        place, mine = herd.place(index), herd.discs()[DISCS * index : DISCS * (index + 1)]
+        centres = between_feet(np.array([[place.x, place.y]]), herd.front(index)[None])[0]
+        assert np.array_equal(mine[:, :2], centres) and (mine[:, 2] == place.z).all()
+        assert (mine[:, 5] == disc_radius(body)).all()
+        assert (mine[:, 3:5].any(axis=1) == (index == 0)).all()  # only the first moves

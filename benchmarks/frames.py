@@ -1,15 +1,17 @@
 """How long frames take in mixed play, and what an order costs.
 
     python -m benchmarks.frames [--people 1 10 40] [--dogs 4] [--walkers 20] [--seconds 60] [--seed 1]
-                                [--level FILE] [--speed 3] [--rehearsal-ticks 20]
+                                [--level FILE] [--speed 3] [--rehearsal-ticks 20] [--threads 1]
     python -m benchmarks.frames --changes 8 --level "city 8" --people 0 --dogs 0 [--within 0.5]
 
 People, dogs and walkers get new goals all over a level, are told to stop, and go over to recorded motion and
 back, all drawn by the seed. A frame is `World.step(1 / 60)`. Printed for each number of people are the mean,
 median, 99th percentile and longest of the frames after the first second and of `go_to`, by body; the kernels
-that compiled meanwhile; and the ratio of all frames to bare physics: `mj_step` of the simulated people from
-the states they were in, sampled during the play and timed in the same run. The ratio is of processor times,
-so that it hardly depends on what else runs on the machine.
+that compiled meanwhile; by how much the world is faster than real time; and the ratio of all frames to bare
+physics: `mj_step` of the simulated people from the states they were in, sampled during the play and timed in
+the same run; of those who run on level floors it is also compared with the same on a plane. Ratios are of
+processor times, so that they hardly depend on what else runs on the machine. Kernels are loaded before the
+play, as a game does with `runtime.prepare`.
 
 With ``--changes``, so many times a chunk of 10 m of a level of `benchmarks.large_levels` is taken out and put
 back: at once, then within so many seconds of the world's time, by turns. Printed is the longest frame from
@@ -22,16 +24,16 @@ import argparse
 import time
 from dataclasses import dataclass, field
 
-import mujoco
 import numpy as np
 
 import navmesh
+from benchmarks.bare_physics import tick_alone, tick_on_a_plane_instead
 from benchmarks.large_levels import LARGE_LEVELS, large_level
 from locomotion import Human
-from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK
+from locomotion.body.person import CONTROL_DT
 from locomotion.rehearsal.sharing import REHEARSAL_TICKS
 from navmesh.level.chunks import chunks_of, join_chunks, split_terrain
-from runtime import RuntimeInputError, World
+from runtime import RuntimeInputError, World, prepare
 from runtime.world.agent import Agent
 from surefoot.compile_notice import counted
 
@@ -49,13 +51,14 @@ _SAMPLES = 0.25  # [s] between states whose bare physics is timed
 @dataclass
 class Times:
     """What was measured. ``frames``: [s] each. ``orders``: of each kind of body, [s] each. ``spent``: [s] of
-    processor time of all frames; ``bare``: of the ticks of bare physics that they contain. ``compiled``:
-    kernels."""
+    processor time of all frames; ``bare``: of the ticks of bare physics that they contain; ``running``: of
+    such ticks of some who run, and with a plane under them instead. ``compiled``: kernels."""
 
     frames: list[float] = field(default_factory=list)
     orders: dict[str, list[float]] = field(default_factory=dict)
     spent: float = 0.0
     bare: float = 0.0
+    running: list[tuple[float, float]] = field(default_factory=list)
     compiled: int = 0
 
 
@@ -79,13 +82,13 @@ class Play:
         speed: float,
         seed: int,
         rehearsal_ticks: int = REHEARSAL_TICKS,
+        threads: int = 1,
     ) -> None:
-        self.world = World(graph, seed, rehearsal_ticks=rehearsal_ticks)
+        self.world = World(graph, seed, rehearsal_ticks=rehearsal_ticks, threads=threads)
         self._rng = np.random.default_rng(seed)
         self._speeds = {"human": speed, "dog": 2.0, "walker": 1.4}
         self._places = graph.positions[graph.radii > _ROOMY]
         self.times = Times()
-        self._scratch: dict[int, mujoco.MjData] = {}
         for body, count in counts.items():
             for _ in range(count):
                 self._spawn(body)
@@ -110,9 +113,9 @@ class Play:
                 self._order(agent)
             while self.world.time < seconds:
                 self._tell()
-                begun, spent = time.perf_counter(), time.thread_time()
+                begun, spent = time.perf_counter(), time.process_time()
                 self.world.step(FRAME)
-                passed, spent = time.perf_counter() - begun, time.thread_time() - spent
+                passed, spent = time.perf_counter() - begun, time.process_time() - spent
                 if self.world.time > _BEGIN:
                     self.times.frames.append(passed)
                     self.times.spent += spent
@@ -182,14 +185,10 @@ class Play:
             human = agent.driver.simulated
             if not isinstance(human, Human) or human.held:
                 continue
-            model = human.model
-            if id(model) not in self._scratch:
-                self._scratch[id(model)] = mujoco.MjData(model)
-            copy = self._scratch[id(model)]
-            mujoco.mj_copyData(copy, model, human.data)
-            begun = time.thread_time()
-            mujoco.mj_step(human.physics, copy, STEPS_PER_TICK)
-            self.times.bare += (time.thread_time() - begun) * covers / CONTROL_DT
+            self.times.bare += tick_alone(human) * covers / CONTROL_DT
+            running = tick_on_a_plane_instead(human)
+            if running is not None:
+                self.times.running.append(running)
 
 
 def told(name: str, seconds: list[float]) -> str:
@@ -221,9 +220,10 @@ def measured(
     seconds: float,
     seed: int,
     rehearsal_ticks: int = REHEARSAL_TICKS,
+    threads: int = 1,
 ) -> Times:
     """Play for so long."""
-    play = Play(graph, counts, speed, seed, rehearsal_ticks)
+    play = Play(graph, counts, speed, seed, rehearsal_ticks, threads)
     play.go_on(seconds)
     return play.times
 
@@ -238,6 +238,7 @@ def main() -> None:
     parser.add_argument("--speed", type=float, default=3.0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--rehearsal-ticks", type=int, default=REHEARSAL_TICKS, help="as of World")
+    parser.add_argument("--threads", type=int, default=1, help="as of World")
     parser.add_argument("--level", default="examples/levels/courtyard.obj")
     parser.add_argument("--up", default="z")
     parser.add_argument("--changes", type=int, default=0, help="of a level such as 'city 8'")
@@ -249,6 +250,7 @@ def main() -> None:
     else:
         terrain = navmesh.Terrain.load(asked.level, up=asked.up)
     graph = navmesh.NodeGraph.build(terrain)
+    prepare()
     for people in asked.people:
         counts = {"human": people, "dog": asked.dogs, "walker": asked.walkers}
         if asked.changes:
@@ -259,12 +261,23 @@ def main() -> None:
             print(told_around("  changed at once", around.at_once))
             print(told_around(f"  changed within {asked.within:g} s", around.within))
             continue
-        times = measured(graph, counts, asked.speed, asked.seconds, asked.seed, asked.rehearsal_ticks)
+        times = measured(
+            graph, counts, asked.speed, asked.seconds, asked.seed, asked.rehearsal_ticks, asked.threads
+        )
         print(f"{people} people, {asked.dogs} dogs, {asked.walkers} walkers, {asked.seconds:g} s")
         print(told("  frames", times.frames))
         for body, orders in times.orders.items():
             print(told(f"  go_to of a {body}", orders))
+        passed = len(times.frames) * FRAME
+        print(
+            f"  real time: {passed / sum(times.frames):.2f} x by the clock, {passed / times.spent:.2f} x by "
+            f"processor time ({asked.threads} threads)"
+        )
         print(f"  world.step over bare mj_step: {times.spent / max(times.bare, 1e-9):.2f}")
+        if times.running:
+            here, plane = np.sum(times.running, axis=0)
+            told_plane = f"{here / plane:.2f} ({len(times.running)} ticks)"
+            print(f"  mj_step of who runs over the same on a plane: {told_plane}")
         print(f"  kernels compiled: {times.compiled}")
 
 

@@ -106,7 +106,7 @@ class TookOff(Event):
 @dataclass(frozen=True)
 class TurnedAway(Event):
     """The body does not run at an obstacle of this affordance and size [m], or breaks its run-up off: its
-    ``odds`` of clearing it, 0 to 1, are too low for its bravery."""
+    ``odds`` of clearing it, 0 to 1, are too low for its bravery, or too low to rehearse it."""
 
     affordance: str
     size: float

@@ -177,7 +177,8 @@ class Stuck(Event):
 @dataclass(frozen=True)
 class TurnedAway(Event):
     """The agent does not take off for ``skill`` at an obstacle of ``height`` [m] (of a gap its width): its
-    ``odds``, 0 to 1, are too low for its bravery. It tries again, takes another way, or is `Stuck`."""
+    ``odds``, 0 to 1, are too low for its bravery, or too low to rehearse it. It tries again, takes another
+    way, or is `Stuck`."""
 
     skill: str
     height: float

@@ -9,7 +9,7 @@ from functools import partial
 from locomotion.body_events import GotStuck
 from locomotion.gaits.limits import RUN_ENTRY, SHORT_ENTRY, run_entry_speed
 from locomotion.gaits.run.layout import STEP_TIME
-from locomotion.human.composition import Composition
+from locomotion.human.composition import HOPELESS, Composition
 from locomotion.human.person import Person
 from locomotion.human.state import MOVING
 from locomotion.paths.command import HEADING_ASKED
@@ -107,8 +107,10 @@ class GaitChanges:
     def _set_off(self, speed: float) -> None:
         """Begin to run towards the obstacle ahead, from ``speed`` [m/s], if rehearsals hold; from less than
         usual, because there is little room, only if they hold in full."""
-        person = self._person
-        if self._decider.answer is None and not self._composition.dares_to_set_off():
+        person, rehearses = self._person, self._decider.answer is not None
+        if not rehearses and not self._composition.dares_to_set_off():
+            return
+        if rehearses and speed >= RUN_ENTRY and not self._composition.may_find_a_way():
             return
 
         def set_off(body: Chooser, choice: tuple[bool, Sequence[float], float]) -> None:
@@ -117,7 +119,7 @@ class GaitChanges:
 
         choices, least = (SETTING_OFF, HOLDS) if speed >= RUN_ENTRY else (HASTES, HOLDS_FULLY)
         choice, went, seen, known = self._decider.best(person, choices, set_off, _CLEARS, self._clears_in)
-        if went >= least and (known or self._decider.answer is None):
+        if went >= least and (known or not rehearses):
             set_off(person, choice)
             self._decider.predicted.expect(person, seen)
 
@@ -155,15 +157,18 @@ class GaitChanges:
     def choose_take_off(self) -> None:
         """Just after a step of a run-up has begun: choose its variation, or abort the run-up."""
         person = self._person
-        if self._decider.answer is None:
-            self._composition.choose_take_off()
+        if self._decider.answer is None and self._composition.bravery is not None:
+            self._composition.choose_take_off(self._composition.needs)
         if not person.begins_run_up:
             return
         if self._decider.answer is None:
             self._decider.undecided = True
             return
         choice, went, seen, known = self._decider.best(person, RUN_UPS, vary_run_up, _CLEARS, self._clears_in)
-        person.run_up.vary(choice, person.control, known and went >= HOLDS)
+        if not known:
+            self._composition.choose_take_off(HOPELESS)
+            return
+        person.run_up.vary(choice, person.control, went >= HOLDS)
         if went >= HOLDS:
             self._decider.predicted.expect(person, seen)
         else:

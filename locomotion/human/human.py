@@ -138,6 +138,7 @@ class Human(Person):
         self._rehearsals = rehearsals
         self._lookahead = None
         if rehearsals:
+            self.composition.get_ready()
             self._lookahead = Lookahead(self, self._double, rehearsals)
             self.decider.answer = self._lookahead.decide
 
@@ -489,4 +490,5 @@ class Human(Person):
         )  # fmt: skip
         double.on_feet.landing.behind = feet.landing.behind
         double.decider.waits = self.decider.waits
+        double.composition.preconditions = self.composition.preconditions
         return double

@@ -212,9 +212,9 @@ class Agent:
     @property
     def bravery(self) -> float | None:
         """Of a person in a world without rehearsals: from 0 to 1, it takes off where its odds are at least 1
-        less this, and turns away elsewhere (`TurnedAway`). None: it does not ask. With rehearsals it never
-        does, and this changes nothing. Can be set; raises
-        `RuntimeInputError` for another value, and for bodies without odds. Takes constant time."""
+        less this, and turns away elsewhere (`TurnedAway`). None: it does not ask. With rehearsals this
+        changes nothing. Can be set; raises `RuntimeInputError` for another value, and for bodies without
+        odds. Takes constant time."""
         return self._bravery
 
     @bravery.setter

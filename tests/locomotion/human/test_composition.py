@@ -10,6 +10,8 @@ import pytest
 from locomotion import MOVING, Ground, Human, LocomotionError
 from locomotion.body_events import Cleared, GotStuck, TookOff, TurnedAway, WentBack
 from locomotion.gaits.run.skill import load_run_skill
+from locomotion.human import composition
+from locomotion.human.composition import HOPELESS
 from locomotion.preconditions.changes import SLOW_DOWN
 from locomotion.preconditions.precondition import load_preconditions
 from locomotion.skills.course import make_course
@@ -33,15 +35,18 @@ def always(odds, known, before=None):
     return replace(known, run_up=constant(known.run_up, odds), before=at_first)
 
 
-def goes(odds, bravery, before=None, seconds=20.0):
+def goes(odds, bravery, before=None, seconds=20.0, rehearsals=0, waits=True, speed=0.0):
+    """One that comes to a jump 12 m ahead, from a stand or running at ``speed``."""
     course = make_course([("jump", 0.4, 0.0)], [12.0])
-    human = Human(Ground.from_arrays(course.vertices, course.faces), rehearsals=0)
+    human = Human(Ground.from_arrays(course.vertices, course.faces), rehearsals=rehearsals)
+    if rehearsals:
+        human.waits = waits
     known = load_preconditions()
     human.composition.preconditions = {
         "jump": always(odds, known["jump"], before), SLOW_DOWN: known[SLOW_DOWN],
     }  # fmt: skip
     human.bravery = bravery
-    human.reset(course.path[0], 0.0)
+    human.reset(course.path[0], 0.0, speed)
     human.follow(course.path, 3.5, course.obstacles)
     while human.status in MOVING and human.time < seconds:
         human.tick()
@@ -72,6 +77,35 @@ def test_bad_odds_in_the_run_up_break_it_off_for_another_one():
 def test_who_dares_takes_off(odds, bravery):
     human = goes(odds, bravery)
     assert of(TookOff, human) and of(Cleared, human) and not of(TurnedAway, human)
+
+
+def test_who_rehearses_does_not_where_that_is_hopeless():
+    human = goes(0.9, None, before=0.9 * HOPELESS, rehearsals=16)
+    (away,), (stuck,) = of(TurnedAway, human), of(GotStuck, human)
+    assert away.odds == pytest.approx(0.9 * HOPELESS) and "its odds of clearing" in stuck.reason
+    assert human.foresees is None and not of(TookOff, human)
+
+
+@pytest.mark.parametrize("before", [1.1 * HOPELESS, 0.9])
+def test_who_rehearses_takes_off_where_that_holds_whatever_its_odds_are_then(before):
+    human = goes(0.01, None, before=before, rehearsals=16)
+    assert of(TookOff, human) and of(Cleared, human) and not of(TurnedAway, human)
+
+
+def test_odds_decide_where_there_is_no_time_to_rehearse():
+    away = goes(0.9 * HOPELESS, None, rehearsals=16, waits=False, speed=3.5)  # nobody looks ahead
+    assert of(TurnedAway, away)[0].odds == pytest.approx(0.9 * HOPELESS) and not of(TookOff, away)
+    dares = goes(1.1 * HOPELESS, None, rehearsals=16, waits=False, speed=3.5, seconds=5.0)
+    assert of(TookOff, dares) and not of(TurnedAway, dares)
+
+
+def test_without_odds_rehearsals_decide_alone(monkeypatch):
+    def outdated():
+        raise LocomotionError("the jump has changed since")
+
+    monkeypatch.setattr(composition, "load_preconditions", outdated)
+    human = Human(rehearsals=16)
+    assert human.composition.precondition(jump_of(human)) is None
 
 
 @pytest.mark.parametrize("running", [0.0, 3.0])

@@ -66,6 +66,7 @@ class Persons(Population):
 
     def prepare_levels(self) -> None:
         moments()
+        self.recorded.prepare_levels()
 
     def at_level(self, driver: Driver, level: str, at_once: bool = False) -> Driver | None:
         if isinstance(driver, RecordedDriver) and level in LEVELS:
@@ -73,6 +74,7 @@ class Persons(Population):
             return driver
         if level == driver.detail:
             return driver
+        self.prepare_levels()  # now, for who asks: who cannot change yet, or changes back, does so in a tick
         taken: Driver | None = None
         if isinstance(driver, HumanDriver):
             if not (at_once or driver.on_its_feet):

@@ -43,10 +43,14 @@ class Recorded(Population):
     @property
     def people(self) -> RecordedPeople:
         """Made with the first: worlds without any need no motions."""
+        self.prepare_levels()
+        assert self._people is not None
+        return self._people
+
+    def prepare_levels(self) -> None:
         if self._people is None:
             self._people = RecordedPeople(self.level.graph, ground=self.level.ground)
             self._people.crowd.expect(PERSON_RULES["radius"])  # lest a tick has to
-        return self._people
 
     def spawn(self, body: str, place: np.ndarray, facing: float, radius: float) -> "RecordedDriver":
         return RecordedDriver(self, self.people.add(place, facing, 0, chance_at(place, self._seed)))

@@ -8,6 +8,7 @@ from locomotion.human.falls import fall
 from locomotion.human.human import Human
 from locomotion.rehearsal.sharing import REHEARSAL_TICKS
 from runtime import Budget, Fell, PostureReached, RuntimeInputError, Viewer, World
+from runtime.bodies import persons, recorded
 
 
 @pytest.mark.parametrize("moves", [False, True])
@@ -38,6 +39,27 @@ def test_a_simulated_person_takes_a_posture_without_a_jump_and_is_simulated_agai
     assert max(steps) < usual
     assert ada.level == "physics" and ada.human.status == "standing"
     assert [e.posture for e in world.events if isinstance(e, PostureReached)] == ["kneel", "stand"]
+
+
+def test_who_asks_waits_for_what_is_read_and_no_tick_does(graph, monkeypatch):
+    """The first who asks cannot change at once: it lies on the ground."""
+    read, make = [], recorded.RecordedPeople
+
+    def people(*what, **more):
+        read.append("people")
+        return make(*what, **more)
+
+    monkeypatch.setattr(recorded, "RecordedPeople", people)
+    monkeypatch.setattr(persons, "moments", lambda: read.append("moments"))
+    world = World(graph)
+    ada, bob = world.spawn("human", (2.0, 3.0, 0.0)), world.spawn("human", (4.0, 3.0, 0.0))
+    assert not read
+    fall(ada.human, True)
+    ada.detail = "full"
+    assert ada.level == "physics" and set(read) == {"people", "moments"}
+    bob.take_posture("kneel")
+    world.step(0.5)
+    assert bob.level == "full" and read.count("people") == 1
 
 
 def test_standing_is_no_change(graph):

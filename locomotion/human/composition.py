@@ -162,20 +162,35 @@ class Composition:
     def choose_take_off(self, least: float) -> None:
         """Just after a step of a run-up has begun: take the best variation of it, or turn away if its odds
         are below ``least``."""
-        person, obstacle = self._person, self._person.run_up.ahead
-        if obstacle is None or not self._in_run_up:
+        person, obstacle, odds = self._person, self._person.run_up.ahead, self._odds_of_variations()
+        if obstacle is None or odds is None:
             return
-        known = self.precondition(person.run_up.skill_for(obstacle))
-        if known is None or person.control[controller.STEP_TIME] > 0.0:
-            return
-        present = person.run_up.plan[[FARTHER, FASTER]]
-        choices = np.vstack([present, RUN_UPS])
-        odds = known.odds(self._described(obstacle, choices)) * known.covers(obstacle.size)
         best = int(np.argmax(odds))
-        if odds[best] > odds[0] + _BETTER:
-            person.run_up.vary(choices[best], person.control, person.run_up.rehearsed)
+        if best > 0 and odds[best] > odds[0] + _BETTER:
+            person.run_up.vary(RUN_UPS[best - 1], person.control, person.run_up.rehearsed)
         if odds[best] < least:
             self._turn_away(obstacle, float(odds[best]))
+
+    def hopeless(self) -> TurnedAway | None:
+        """Just after a step of a run-up has begun: what to say of turning away, if no variation of it has
+        odds worth rehearsing."""
+        person, obstacle, odds = self._person, self._person.run_up.ahead, self._odds_of_variations()
+        if obstacle is None or odds is None or odds.max() >= HOPELESS:
+            return None
+        best = float(odds.max())
+        return TurnedAway(person.time, person.point, obstacle.affordance, obstacle.size, best)
+
+    def _odds_of_variations(self) -> NDArray[np.float64] | None:
+        """(1 + k,) odds of the step of a run-up that has just begun, as it is planned and for each of
+        `RUN_UPS`; None where there is none, or nothing is known."""
+        person, obstacle = self._person, self._person.run_up.ahead
+        if obstacle is None or not self._in_run_up or person.control[controller.STEP_TIME] > 0.0:
+            return None
+        known = self.precondition(person.run_up.skill_for(obstacle))
+        if known is None:
+            return None
+        choices = np.vstack([person.run_up.plan[[FARTHER, FASTER]], RUN_UPS])
+        return known.odds(self._described(obstacle, choices)) * known.covers(obstacle.size)
 
     def _turn_away(self, obstacle: ObstacleAhead, odds: float) -> None:
         """Break the run-up off where that is likelier to hold than going on with these ``odds``."""

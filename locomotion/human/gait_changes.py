@@ -164,6 +164,10 @@ class GaitChanges:
         if self._decider.answer is None:
             self._decider.undecided = True
             return
+        hopeless = self._composition.hopeless()
+        if hopeless is not None and self._slow_as_rehearsed(BALKINGS, balk, _WALKS_ON, WALKS_IN):
+            person.events.append(hopeless)
+            return
         choice, went, seen, known = self._decider.best(person, RUN_UPS, vary_run_up, _CLEARS, self._clears_in)
         if not known:
             self._composition.choose_take_off(HOPELESS)

@@ -14,6 +14,8 @@ from locomotion.human import composition
 from locomotion.human.composition import HOPELESS
 from locomotion.preconditions.changes import SLOW_DOWN
 from locomotion.preconditions.precondition import load_preconditions
+from locomotion.rehearsal.choices import BALKINGS, RUN_UPS
+from locomotion.rehearsal.trials import Rehearsal
 from locomotion.skills.course import make_course
 from locomotion.skills.learned_skill import LearnedSkill
 from locomotion.training.preconditions.sampling import WiderSkill
@@ -90,6 +92,19 @@ def test_who_rehearses_does_not_where_that_is_hopeless():
 def test_who_rehearses_takes_off_where_that_holds_whatever_its_odds_are_then(before):
     human = goes(0.01, None, before=before, rehearsals=16)
     assert of(TookOff, human) and of(Cleared, human) and not of(TurnedAway, human)
+
+
+def test_a_hopeless_run_up_is_broken_off_as_rehearsed(monkeypatch):
+    asked, run = [], Rehearsal.run
+
+    def counted(rehearsal, understudy):
+        asked.append(rehearsal.question.choices)
+        return run(rehearsal, understudy)
+
+    monkeypatch.setattr(Rehearsal, "run", counted)
+    human = goes(0.9 * HOPELESS, None, rehearsals=16, speed=3.5)
+    assert of(TurnedAway, human)[0].odds == pytest.approx(0.9 * HOPELESS) and not of(TookOff, human)
+    assert human.status == "walking" and BALKINGS in asked and RUN_UPS not in asked
 
 
 def test_odds_decide_where_there_is_no_time_to_rehearse():

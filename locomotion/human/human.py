@@ -358,7 +358,7 @@ class Human(Person):
         if not walks:
             limits, facing = feet.limits, math.atan2(velocity[1], velocity[0])
         aside = self.run_up.ahead is None
-        course = course_on_way(follower, limits, here, velocity, walks, facing, aside)
+        course = course_on_way(follower, limits, here, velocity, walks, facing, aside, feet.turns_first)
         if feet.slowing == 0.0:
             return course
         return replace(course, slowest=0.0, braking=BRAKING if feet.brakes else feet.slowing)

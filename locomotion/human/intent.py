@@ -36,9 +36,11 @@ def course_on_way(
     walks: bool,
     facing: float,
     aside: bool,
+    turns_first: float = TURN_FIRST,
 ) -> Course:
     """Course of a person at ``place`` (3,) with ``velocity`` (3,), facing ``facing`` [rad]; if its path leads
-    elsewhere, it stops and turns first. ``aside``: whether its path may be changed."""
+    elsewhere by more than ``turns_first`` [rad], it stops and turns first. ``aside``: whether its path may be
+    changed."""
     path = follower.path
     assert path is not None
     arc, step = follower.arc, path.length / (len(path.table) - 1)
@@ -50,7 +52,7 @@ def course_on_way(
     ahead = headings[min(round(_WALK_BEGINS / SPACING), count - 1)]
     off = abs(math.remainder(ahead - facing, 2.0 * math.pi))
     before = place[None]
-    if off > TURN_FIRST:
+    if off > turns_first:
         turns = (off - TURN_FIRST) / TURN_RATE + _SETTING_OFF
         if speed > TURNING_SPEED:  # it goes straight on until it is slow enough
             before = _straight_on(place, velocity, speed * speed / (2.0 * limits.deceleration))

@@ -64,6 +64,7 @@ RUN_STOPS = 1.2
 _REACTS = 0.3  # [s] before that
 _RUN_SEES = 4.0  # [m] of level ground more, for it to run
 _ROOM = 0.8  # [m] more to where a run begins
+_WALKS_FIRST = 60  # ticks before it begins a run
 
 
 def memory_of_run(run: NDArray[np.float64], qvel: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -116,6 +117,11 @@ class LearnedWalk:
     def stands(self) -> bool:
         """Whether it stands, on both feet."""
         return self.active and self._state.item(at.RUNNING) == 0.0
+
+    @property
+    def has_walked(self) -> bool:
+        """Whether it has moved the person for long enough to begin a run."""
+        return self.memory.item(TICKS) >= _WALKS_FIRST
 
     @property
     def may_run(self) -> bool:

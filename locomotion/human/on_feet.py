@@ -74,8 +74,12 @@ _WALK_GAINS = np.array([0.5, 0.6, 0.05, 0.3, 0.8, 0.25])
 _HASTE = 1.3  # [m/s] asked for above the last step's speed at most, lest it trip
 _FAST, _FAST_HASTE = 3.7, 0.8  # [m/s] from the first speed on, only this much above
 _CHANGED = 4.0  # steps after which a change of gait is complete
+_CAME_UP = -1.0  # the step of one that came up from a crouch where it may go on as learned
 _HELD_UP = 12.0  # steps after which a pushed person that has braked need not come to rest
 _GENTLY, _RESTS = 1.2, 1.0  # [m/s^2] of slowing down as learned on its way, and [m] walked at its end
+_RUNS_WITHIN = 0.4  # [rad] off its way with which a run begins
+_TURN_ROUND, _TURNING, _MOVES = 2.4, 0.5, 0.4
+# [rad] off its way up to which the learned walk turns on its way, [m/s] of it meanwhile and at least
 _NOTHING = np.zeros(0)
 _UPRIGHT = 0.8  # [m] of the centre of mass over the lower foot of one that stands
 _CALM, _THROWN = 0.1, 0.12  # [m/s] of one that may stand as learned, and that has been thrown off that
@@ -188,6 +192,13 @@ class OnFeet:
         return self.walks and self.walk.item(WALK_TICKS) < RISING
 
     @property
+    def turns_first(self) -> float:
+        """[rad] off its way from which it turns on the spot, if need be after a stop."""
+        learned = self.learned
+        on_its_way = learned is not None and learned.active and not learned.runs and learned.speed > _MOVES
+        return _TURN_ROUND if on_its_way else TURN_FIRST
+
+    @property
     def on_uneven_ground(self) -> bool:
         """Whether it walks on steep ground or stairs."""
         return self.walks and self.walk.item(UNEVEN) > 0.0
@@ -261,7 +272,7 @@ class OnFeet:
         follower.track(_WALK_GAINS if walks else RUN_GAINS, x, y, self.speed, tick, command)
         if on_walk:
             most = self.walk_skill.speed if follower.walks_fast else self.walk_limits.calm
-            if self.learned is not None and self.learned.may_run and follower.runs:
+            if self._runs_on(follower, command):
                 most = self.limits.speeds[1]
             self._steer_walk(state, moving, follower.pace, most, command)
         elif self.slowing > 0.0:
@@ -282,20 +293,33 @@ class OnFeet:
                 planned if planned > 0.0 else max(follower.pace * command[SPEED_ASKED], slowest)
             )
 
+    def _runs_on(self, follower: PathFollower, command: NDArray) -> bool:
+        """Whether the learned walk is to run: who does not yet, walks for a moment and turns towards its way
+        first."""
+        learned = self.learned
+        if learned is None or not (learned.may_run and follower.runs):
+            return False
+        off = math.remainder(command.item(HEADING_ASKED) - self.walk.item(WALK_HEADING), 2.0 * math.pi)
+        return learned.runs or (learned.has_walked and abs(off) < _RUNS_WITHIN)
+
     def _steer_walk(self, state: NDArray, moving: bool, pace: float, most: float, command: NDArray) -> None:
         """``pace``: share of the wanted speed; ``most``: upper limit [m/s]."""
         walk = self.walk
         heading = walk.item(WALK_HEADING)
-        if walk.item(WALK_STEPS) < 0.0:
+        if walk.item(WALK_STEPS) < 0.0 and not self.walks_as_learned:
             command[:] = heading, STEADYING_SPEED, 0.0, 0.0
             return
         off = command.item(HEADING_ASKED) - heading
         if walk.item(SUDDEN) == 0.0:
             off -= TURN_TIME * walk.item(WALK_TURN_RATE)  # it is already turning in a bend
-        if not moving or abs(math.remainder(off, 2.0 * math.pi)) > TURN_FIRST:
+        off = abs(math.remainder(off, 2.0 * math.pi))
+        if not moving or off > self.turns_first:
             command[SPEED_ASKED] = command[SIDEWAYS_ASKED] = 0.0
             if np.hypot(*state[controller.COM_VELOCITY][:2]) > TURNING_SPEED:
                 command[HEADING_ASKED] = heading
+        elif off > TURN_FIRST:
+            command[SPEED_ASKED] = min(command.item(SPEED_ASKED), _TURNING)
+            command[SIDEWAYS_ASKED] = 0.0
         if self.brakes:
             pace = 0.0  # despite new commands: it has rehearsed this stop
         command[SPEED_ASKED] = pace * min(command.item(SPEED_ASKED), most)
@@ -310,18 +334,20 @@ class OnFeet:
         learned, walk = self.learned, self.walk
         if learned is None or not self.walks or walk.item(PHASE) == SINGLE or walk.item(CLOCK) > 0.0:
             return
-        ready = walk[WALK_STEPS] >= _CHANGED
+        came_up = walk.item(WALK_STEPS) == _CAME_UP and moving
+        ready = came_up or walk[WALK_STEPS] >= _CHANGED
         if walk[PHASE] == STANDING:  # out of a crouch it straightens up, but the planned walk sets off
             ready = self._upright(body.control) or (ready and not moving)
             ready = ready and (moving or body.ground_speed < _CALM)
         usual = learned.active or ready
         fades = self.residual.acts and walk[PHASE] != STANDING  # what is left in a stand is no more needed
-        usual = usual and not self.brakes and not fades and not self.landing.acts
+        usual = usual and not self.brakes and not fades and (came_up or not self.landing.acts)
         if usual:
             learned.look_ahead(follower, body, free and moving)
         suits = usual and learned.suits(follower, moving, body, command, walk)
         if suits and not learned.active:
             self.residual.forget()
+            self.landing.forget()
             learned.take_over(body, walk)
         elif learned.active and not suits:
             learned.give_back(body, walk, self.walk_skill.speed)

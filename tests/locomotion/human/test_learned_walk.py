@@ -276,3 +276,36 @@ def test_out_of_a_crouch_it_sets_off_as_planned():
 def test_a_stop_counts_as_rehearsed_when_it_stands_if_only_in_a_crouch():
     """It goes on from there, and never stands straight."""
     assert any(at_once(ComesToRest()(braking(harder)))[0] > 0.0 for harder in BRAKINGS)
+
+
+@pytest.mark.parametrize("angle", [0.9, 1.6, 2.2])
+def test_told_elsewhere_it_turns_as_it_walks(angle):
+    human = walker()
+    human.follow([[0, 0, 0], [60, 0, 0]], 1.3)
+    while human.arc_length < 4.0:
+        human.tick()
+    here, way = human.com * [1, 1, 0], np.array([np.cos(angle), np.sin(angle), 0.0])
+    human.follow([here, here + 20.0 * way], 1.3)
+    begun = human.ticks
+    while human.velocity @ way < 1.1:
+        human.tick()
+        assert human.on_feet.walks_as_learned and not human.on_feet.learned.stands
+        assert human.ticks - begun < 400
+    off = np.cross(way, (human.com - here) * [1, 1, 0])[2]
+    assert abs(off) < 1.6, "no farther than a stop would have taken it"
+
+
+def test_one_that_runs_only_straight_ahead_does_not_waver_between_walk_and_run():
+    """Askew to its way it turns first; a run that begins there would end at once, and begin again."""
+    human = walker()
+    human.follow([[0, 0, 0], [60, 0, 0]], 1.3)
+    while human.arc_length < 4.0:
+        human.tick()
+    here, way = human.com * [1, 1, 0], np.array([np.cos(0.8), np.sin(0.8), 0.0])
+    human.follow([here, here + 40.0 * way], 3.5)
+    ran = []
+    while human.velocity @ way < 3.0:
+        human.tick()
+        ran.append(human.on_feet.runs_as_learned)
+        assert len(ran) < 500
+    assert np.count_nonzero(np.diff(ran)) == 1

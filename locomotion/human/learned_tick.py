@@ -7,7 +7,7 @@ import numpy as np
 from locomotion.body.person import CONTROL_DT
 from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.kernel import decide_tick
-from locomotion.gaits.policy.law import RUNS_FROM
+from locomotion.gaits.policy.law import RUN_SIDEWAYS, RUNS_FROM
 from locomotion.gaits.policy.level_ground import floor_at
 from locomotion.gaits.walk.layout import (
     CLOCK,
@@ -33,6 +33,7 @@ __all__ = [
     "MEMORY_SIZE",
     "MOST_TURN",
     "OWN_STYLE",
+    "SIDEWAYS",
     "SLOWEST",
     "TICKS",
     "decide_and_walk_on",
@@ -43,7 +44,8 @@ SLOWEST = 0.3
 """[m/s] at which it walks at least. Asked for less than half of that, it comes to rest."""
 MOST_TURN = 1.2
 """[rad/s] that it turns at most."""
-_SIDEWAYS = 1.2  # [m/s^2] in a bend at most
+SIDEWAYS = 1.2
+"""[m/s^2] in a bend that it walks; it runs bends that are planned with that, with some more to keep to them."""
 _EAGERNESS = 2.0  # [1/s] of turning towards the heading asked for
 _FACES = 0.1  # [rad] off that heading up to which a person at rest does not turn
 
@@ -65,7 +67,8 @@ def _ask(memory, command, asked):
     speed = max(speed, SLOWEST) if speed > 0.5 * SLOWEST else 0.0
     aside = math.atan2(command[SIDEWAYS_ASKED], speed) if speed > 0.0 else 0.0
     off = wrap(command[HEADING_ASKED] + aside - memory[at.HEADING])
-    most = min(MOST_TURN, _SIDEWAYS / max(speed, memory[at.TOLD], SLOWEST))
+    sideways = RUN_SIDEWAYS if memory[at.FAST] > 0.0 else SIDEWAYS
+    most = min(MOST_TURN, sideways / max(speed, memory[at.TOLD], SLOWEST))
     turn = min(max(_EAGERNESS * off, -most), most)
     if speed == 0.0 and abs(off) < _FACES:
         turn = 0.0

@@ -58,7 +58,7 @@ from locomotion.gaits.walk.steps import TURN_TIME
 from locomotion.gaits.walk.strain import FORESEEN, STRAINED, USUAL, note_strain, slope_ahead
 from locomotion.human.intent import TURN_FIRST
 from locomotion.human.landing import Landing
-from locomotion.human.learned_tick import MOST_TURN
+from locomotion.human.learned_tick import MOST_TURN, SIDEWAYS
 from locomotion.human.learned_walk import LearnedWalk
 from locomotion.human.residual import Residual
 from locomotion.human.simulation import Simulation
@@ -116,7 +116,7 @@ def _made_of(
     return _Made(
         speed_up.run_tables(run), slow_down.run_tables(run), brake.run_tables(run),
         slow_down.walk_tables(walk), brake.walk_tables(walk), runs,
-        replace(runs, deceleration=_GENTLY, slowing=_GENTLY, rest=_RESTS), walks,
+        replace(runs, sideways=SIDEWAYS, deceleration=_GENTLY, slowing=_GENTLY, rest=_RESTS), walks,
     )  # fmt: skip
 
 

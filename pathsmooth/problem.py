@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -136,6 +136,23 @@ class Problem:
             path, arc, arc, _Placed(waypoint_arc, segment_disc, disc_centers, disc_radii), tangents,
             _Wanted(max_curvature, float(smoothness), float(spacing)),
         )  # fmt: skip
+
+    def narrowed(self, by: float) -> Problem:
+        """The same problem in discs that are smaller by ``by`` [m] > 0, or as far as its targets allow."""
+        _positive("by", by, "m")
+        ends = np.stack([self.targets[:-1], self.targets[1:]])
+        needed = np.zeros(len(self.radii))
+        np.maximum.at(
+            needed,
+            self.segment_disc,
+            np.linalg.norm(ends - self.centers[self.segment_disc], axis=2).max(axis=0),
+        )
+        radii = np.minimum(np.maximum(self.radii - by, needed), self.radii)
+        packed = pack(
+            self.targets, self.arc, self.segment_disc, self.centers, radii, self.smoothness, self.first,
+            self.last,
+        )  # fmt: skip
+        return replace(self, radii=radii, packed=packed)
 
     def along(
         self, curve: NDArray[np.float64], source: NDArray[np.float64], discs: NDArray[np.integer]

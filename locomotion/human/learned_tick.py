@@ -45,7 +45,7 @@ SLOWEST = 0.3
 MOST_TURN = 1.2
 """[rad/s] that it turns at most."""
 SIDEWAYS = 1.2
-"""[m/s^2] in a bend that it walks; it runs bends that are planned with that, with some more to keep to them."""
+"""[m/s^2] in a bend at most as it walks, and as a run is planned; that leaves a run some to steer with."""
 _EAGERNESS = 2.0  # [1/s] of turning towards the heading asked for
 _FACES = 0.1  # [rad] off that heading up to which a person at rest does not turn
 

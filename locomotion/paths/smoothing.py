@@ -15,6 +15,7 @@ import pathsmooth
 from locomotion.errors import LocomotionError
 from locomotion.paths.approach_legs import set_legs
 from locomotion.paths.gait_plan import LANDED, SET_OFF, braking_length
+from locomotion.paths.room import with_room
 from navmesh.obstacles.kinds import kind_of
 from navmesh.routes.route import Leg, Route
 from navmesh.routes.surface_projection import project_curve_to_surface
@@ -39,6 +40,7 @@ class Smoothing:
         roundness: [m^3] smoothness of the path; corners are rounded over about its cube root.
         run_up, landing: [m] straight before an obstacle's edge and behind it, where there is room; 0: only
             as far as the link over it is straight.
+        room: [m] kept from where walking ends, on top of the body's radius, where there is room.
     """
 
     curvatures: tuple[float, ...]
@@ -46,11 +48,13 @@ class Smoothing:
     roundness: float
     run_up: float = 0.0
     landing: float = 0.0
+    room: float = 0.0
 
 
-RUNNING = Smoothing((0.12, 0.18, 0.3, 0.5, 0.8), 0.25, 2.0, SET_OFF, LANDED + braking_length(3.5))
+RUNNING = Smoothing((0.12, 0.18, 0.3, 0.5, 0.8), 0.25, 2.0, SET_OFF, LANDED + braking_length(3.5), 0.15)
 """For a running person: corners are rounded over about 1.3 m. The run-up is what a walking person needs to
-gain speed; the landing what is run at 3.5 m/s before it stops."""
+gain speed; the landing what is run at 3.5 m/s before it stops. It sways, and its arms swing beyond its
+radius: a hand that is caught at a corner stops it."""
 
 
 @dataclass(frozen=True)
@@ -126,7 +130,8 @@ def smoothing_route(
     legs = set_legs(route, smoothing.run_up, smoothing.landing, smoothing.spacing, heading)
     for i, leg in enumerate(legs):
         yield _LEG
-        points, held = yield from _smooth_leg(leg.leg, smoothing, leg.before, leg.after)
+        walked = with_room(route, leg.leg, smoothing.room) if smoothing.room > 0.0 else leg.leg
+        points, held = yield from _smooth_leg(walked, smoothing, leg.before, leg.after)
         bounded = bounded and held
         pieces += [leg.behind, project_curve_to_surface(route.graph, points), leg.ahead]
         pieces += _over(route, i)
@@ -155,6 +160,8 @@ def _smooth_leg(
             leg.waypoints, leg.centers, leg.radii, spacing=smoothing.spacing, start_tangent=start,
             end_tangent=end, smoothness=smoothing.roundness,
         )  # fmt: skip
+        if smoothing.room > 0.0:
+            problem = problem.narrowed(smoothing.room)
         solution, held = yield from pathsmooth.tightening(problem, smoothing.curvatures, _ITERATIONS)
         if solution.status != "infeasible":
             return solution.points, held

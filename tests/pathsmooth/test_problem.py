@@ -128,3 +128,26 @@ def test_objective_of_points_of_another_problem_is_refused():
     problem = Problem.from_corridor(PATH, CENTERS, RADII)
     with pytest.raises(PathSmoothError, match="the problem has"):
         problem.objective(np.zeros((3, 2)))
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(seed=st.integers(0, 2**32 - 1), by=st.sampled_from([0.05, 0.2, 1.0]))
+def test_narrowed_discs_still_hold_the_targets_and_the_solution(seed, by):
+    rng = np.random.default_rng(seed)
+    waypoints, centers, radii = disc_chain(rng, int(rng.integers(1, 20)))
+    problem = Problem.from_corridor(waypoints, centers, radii)
+    narrow = problem.narrowed(by)
+    assert narrow.outside(narrow.targets) < 3e-9
+    assert (narrow.radii <= problem.radii).all() and (narrow.radii >= problem.radii - by - 1e-12).all()
+    for j, radius in enumerate(narrow.radii):  # as small as it may be
+        held = np.flatnonzero(problem.segment_disc == j)
+        ends = problem.targets[np.union1d(held, held + 1)]
+        farthest = np.linalg.norm(ends - problem.centers[j], axis=1).max(initial=0.0)
+        assert radius == pytest.approx(min(max(problem.radii[j] - by, farthest), problem.radii[j]))
+    solution = solve(narrow)
+    assert solution.status == "infeasible" or narrow.outside(solution.points) < 1e-6
+
+
+def test_a_corridor_is_narrowed_by_a_positive_length():
+    with pytest.raises(PathSmoothError, match="by must be a positive number"):
+        Problem.from_corridor(PATH, CENTERS, RADII).narrowed(0.0)

@@ -23,9 +23,9 @@ from locomotion.gaits.run.layout import COM_VELOCITY, FEET, PLANTED
 from locomotion.gaits.run.layout import HEADING as RUN_HEADING
 from locomotion.gaits.run.layout import STANCE as RUN_STANCE
 from locomotion.gaits.run.layout import TURN_RATE as RUN_TURN_RATE
-from locomotion.gaits.walk.controller import observe_walk
 from locomotion.gaits.walk.layout import (
     PHASE,
+    SEEN,
     STANDING,
     WALK_HEADING,
     WALK_SPEED,
@@ -231,9 +231,7 @@ class LearnedWalk:
 
     def take_over(self, body: Simulation, walk: NDArray) -> None:
         """Move a person from now on that walks as planned and has just put a foot down, or stands."""
-        data = body.data
-        self._begin(memory_of(walk, data.qvel))
-        feel(self._feet(body.index, data), data, self._felt)
+        self._begin(memory_of(walk, body.data.qvel))
 
     def _begin(self, memory: NDArray[np.float64]) -> None:
         """Move a person from now on, in its style, as of this ``memory`` (STATE_SIZE,) of a usual one."""
@@ -248,8 +246,9 @@ class LearnedWalk:
         data, phase = body.data, walk[PHASE]
         stance, steps, ticks = walk[WALK_STANCE], walk[WALK_STEPS], walk[WALK_TICKS]
         heading = float(self._state[at.HEADING])
+        seen = walk[SEEN].copy()
         walk[:] = new_walk(heading)
-        observe_walk(body.index, data, walk)
+        walk[SEEN] = seen
         walk[PHASE], walk[WALK_STANCE], walk[WALK_STEPS], walk[WALK_TICKS] = phase, stance, steps, ticks
         speed = math.cos(heading) * data.qvel[0] + math.sin(heading) * data.qvel[1]
         walk[WALK_SPEED] = min(max(speed, 0.0), fastest)
@@ -265,8 +264,8 @@ class LearnedWalk:
             walk_on(self.memory, command, walk, data.qpos, data.ctrl)
 
     def observe(self, index: PersonIndex, data: mujoco.MjData) -> None:
-        """After the physics."""
-        if self.memory.item(TICKS) % at.TICKS_PER_DECISION == 0.0:
+        """After the physics, while it moves the person, and when it may take over next."""
+        if not self.active or self.memory.item(TICKS) % at.TICKS_PER_DECISION == 0.0:
             feel(self._feet(index, data), data, self._felt)
 
     def _feet(self, index: PersonIndex, data: mujoco.MjData) -> Parts:

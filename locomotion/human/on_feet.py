@@ -326,13 +326,18 @@ class OnFeet:
         if pace == 0.0:  # waiting: a person stepping in place drifts into those ahead
             command[HEADING_ASKED], command[SIDEWAYS_ASKED] = heading, 0.0
 
+    @property
+    def _may_change_over(self) -> bool:
+        """Whether a walk has just put a foot down, or stands: the learned one may take over, or give back."""
+        return self.walk.item(PHASE) != SINGLE and self.walk.item(CLOCK) == 0.0
+
     def choose_walk(
         self, follower: PathFollower, moving: bool, body: Simulation, command: NDArray, free: bool
     ) -> None:
         """Where a foot has just come down, or in a stand: go on as learned, or as planned. ``moving``:
         whether to continue along the path; ``free``: whether no obstacle has to be cleared on it."""
         learned, walk = self.learned, self.walk
-        if learned is None or not self.walks or walk.item(PHASE) == SINGLE or walk.item(CLOCK) > 0.0:
+        if learned is None or not self.walks or not self._may_change_over:
             return
         came_up = walk.item(WALK_STEPS) == _CAME_UP and moving
         ready = came_up or walk[WALK_STEPS] >= _CHANGED
@@ -386,10 +391,14 @@ class OnFeet:
             self.hurries = False
         if self.learned is not None and self.learned.drops(data):
             state[controller.FALLEN] = 1.0
-        if self.learned is not None and self.walks_as_learned:
+        as_learned = self.walks_as_learned
+        # not when it changes over: what is derived from the physics is neither saved nor restored
+        changes = self.walks and self.learned is not None and self._may_change_over
+        if self.learned is not None and (as_learned or changes):
             self.learned.observe(index, data)
-        elif self.walks:
+        if self.walks and (changes or not as_learned):
             observe_walk(index, data, self.walk)
+        if self.walks and not as_learned:
             note_strain(self.walk, state[controller.OBSERVED], command)
             if self.brakes and self.walk[PHASE] == STANDING:
                 self.walk[CAUGHT] = 0.0

@@ -82,6 +82,7 @@ class Person:
         else:
             plant(body.model, body.data, body.index, body.lookup, body.control, walk, position, yaw)
             if self.on_feet.learned is not None:
+                self.on_feet.learned.observe(body.index, body.data)
                 self.on_feet.learned.stand(body, position, yaw)
         self.command[:] = yaw, speed, 0.0, 0.0
         self.on_feet.slowing, self.on_feet.brakes, self.on_feet.speed = 0.0, False, speed

@@ -9,7 +9,7 @@ from surefoot.kernels import kernel
 __all__ = [
     "ATTITUDES", "BODY_HEIGHT", "CAUGHT", "CLOCK", "DOUBLE", "FAST", "FAST_SPEED", "FOOTHOLD",
     "FOOTHOLD_NORMAL", "FOOTHOLD_YAW", "GAINS", "HUMP", "LEVEL", "LIFT", "LIFT_NORMAL", "LIFT_YAW", "LONGER",
-    "MISSED", "PHASE", "REST", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES",
+    "MISSED", "PHASE", "REST", "SEEN", "SEEN_ANCHORS", "SEEN_AXES", "SEEN_FEET", "SEEN_PELVIS", "SEEN_SOLES",
     "SEEN_TORQUES", "SETTING_OFF", "SIDEWAYS", "SINGLE", "STAIRS", "STAIRS_AHEAD", "STANDING", "STEEP",
     "STEEPNESS", "STEPPED_AT", "STEPPED_FROM", "STEP_MADE", "STRAINS",
     "SUDDEN", "SWING_ANGLES",
@@ -115,6 +115,8 @@ SEEN_SOLES, SEEN_FEET, SEEN_PELVIS = slice(32, 38), slice(38, 56), slice(56, 65)
 SEEN_ANCHORS, SEEN_AXES, SEEN_TORQUES = slice(65, 101), slice(101, 137), slice(137, 149)
 """The same for the six joints of the right and of the left leg: anchors [m] and axes, (2, 6, 3) in the world;
 torques, (2, 6) [Nm]."""
+SEEN = slice(SEEN_SOLES.start, SEEN_TORQUES.stop)
+"""All of these."""
 USUAL_SPEED = 1.25
 """[m/s] of a walk up to which it goes by the gains for level ground."""
 FAST_SPEED = 1.45

@@ -309,3 +309,22 @@ def test_one_that_runs_only_straight_ahead_does_not_waver_between_walk_and_run()
         ran.append(human.on_feet.runs_as_learned)
         assert len(ran) < 500
     assert np.count_nonzero(np.diff(ran)) == 1
+
+
+@pytest.mark.parametrize("takes_over", [True, False])
+def test_saved_just_before_it_takes_over_or_gives_back_it_goes_on_the_same_elsewhere(takes_over):
+    """What MuJoCo derives from a state is not saved: neither may depend on it, nor on who looks at a pose."""
+    human, other = walker(with_kerb()), walker(with_kerb())
+    human.follow([[0, 0, 0], [14, 0, 0.1]], 1.3)
+    changed = False
+    while not changed:
+        saved, before = human.save_state(), human.on_feet.walks_as_learned
+        human.tick()
+        assert human.status == "walking"
+        changed = before != human.on_feet.walks_as_learned and before != takes_over
+    other.restore_state(saved)
+    other.simulation.body_transforms()
+    other.tick()
+    assert np.array_equal(other.qpos, human.qpos)
+    assert np.array_equal(other.on_feet.learned_memory, human.on_feet.learned_memory)
+    assert np.array_equal(other.on_feet.walk, human.on_feet.walk)

@@ -28,12 +28,12 @@ def test_every_cell_in_which_the_body_fits_is_in_a_run_of_its_region(kind):
     there = {}  # by column: the heights and regions
     for k in range(len(run)):
         there.setdefault(int(column[k]), []).append((float(height[k]), int(found.region[run[k]])))
-    heights = surface.height
+    heights, columns = surface.height, surface.cell_column
     for cell in fits.tolist():
         expected = heights[cell], region[graph.label[cell]]
         assert any(
             abs(high - expected[0]) <= FLAT + 1e-4 and which == expected[1]
-            for high, which in there[int(surface.cell_column[cell])]
+            for high, which in there[int(columns[cell])]
         )
     assert len(fits) <= len(run) < len(fits) + 0.2 * len(surface)
     assert np.unique(np.stack([column, np.round(height, 3)]), axis=1).shape[1] == len(run)

@@ -48,10 +48,12 @@ def _walkable(
 ) -> NDArray[np.float64]:
     """``led`` (n, 3) [m], with ``points`` (n, 3) in the place of those between which a body of ``radius`` [m]
     cannot walk straight on."""
+    led = led.copy()
     for _ in range(_REPAIRS):
-        stuck = np.flatnonzero(~graph.cast_ray(led[:-1], led[1:], radius - _ROUNDING).clear)
+        moved = (led != points).any(axis=1)
+        legs = np.flatnonzero(moved[:-1] | moved[1:])
+        stuck = legs[~graph.cast_ray(led[legs], led[legs + 1], radius - _ROUNDING).clear]
         if not len(stuck):
             return led
-        led = led.copy()
         led[stuck], led[stuck + 1] = points[stuck], points[stuck + 1]
     return points

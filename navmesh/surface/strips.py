@@ -32,10 +32,12 @@ __all__ = ["all_cells"]
 
 _COLUMNS = 1_000_000
 """So many columns has a strip, at most; what is found out about one takes 50 to 100 MB."""
-_NARROWEST = 16
-"""A strip is so many times as wide as a margin."""
+_NARROWEST = 5
+"""A strip is at least so many times as wide as a margin."""
 _EACH = 2
 """Strips for each thread: one with much in it keeps nobody waiting for long."""
+_WIDE = 16
+"""Only where strips are so many times as wide as a margin are there several for a thread."""
 _SPARE = 4  # columns that a margin has beside `reach_of`
 
 
@@ -43,7 +45,7 @@ def all_cells(terrain: Terrain, rules: WalkRules, grid: Grid, threads: int = 1) 
     """The cells of ``terrain``, found by so many ``threads``. Raises `NavmeshError` when there is nothing to
     walk on."""
     margin = reach_of(rules) + _SPARE
-    bounds = _bounds(grid, _NARROWEST * margin, threads)
+    bounds = _bounds(grid, margin, threads)
     if len(bounds) == 2:
         return find_cells(terrain, rules, grid)
     _ = terrain.solid  # of the whole terrain, found before the threads ask for it
@@ -56,12 +58,12 @@ def all_cells(terrain: Terrain, rules: WalkRules, grid: Grid, threads: int = 1) 
     return cells
 
 
-def _bounds(grid: Grid, narrowest: int, threads: int) -> list[int]:
+def _bounds(grid: Grid, margin: int, threads: int) -> list[int]:
     """Where the strips begin and end, along x: where blocks of columns do (`navmesh.surface.floor_store`)."""
     nx, ny = grid.shape
-    rounds = min(_EACH, nx // (threads * narrowest)) if threads > 1 else 1
+    rounds = min(_EACH, nx // (threads * _WIDE * margin)) if threads > 1 else 1
     rounds = max(rounds, math.ceil(nx * ny / (_COLUMNS * threads)))
-    strips = max(1, min(rounds * threads, nx // narrowest))
+    strips = max(1, min(rounds * threads, nx // (_NARROWEST * margin)))
     whole = SIDE // math.gcd(SIDE, ny)
     return [nx * strip // strips // whole * whole for strip in range(strips)] + [nx]
 

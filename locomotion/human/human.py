@@ -41,6 +41,7 @@ from locomotion.gaits.walk.layout import WALK_HEADING
 from locomotion.gaits.walk.skill import WalkSkill, load_walk_skill, rise_walking
 from locomotion.ground.ground import Ground
 from locomotion.human.arrived_or_stuck import ARRIVAL_DISTANCE, STRAYED, notice
+from locomotion.human.balance import loses_balance
 from locomotion.human.composition import Composition, checked_bravery
 from locomotion.human.falls import fall, tick_on_all_fours
 from locomotion.human.gait_changes import GaitChanges
@@ -445,6 +446,8 @@ class Human(Person):
             state[controller.FALLEN] = float(self.run_up.fell(state))
         elif feet.rises:
             state[controller.FALLEN] = 0.0  # after a roll it starts to walk from a crouch
+        elif self.gets_up and loses_balance(self.index, data, self.observed):
+            state[controller.FALLEN] = 1.0
         if state[controller.FALLEN] > 0.0:
             fall(self, self.gets_up)
             return

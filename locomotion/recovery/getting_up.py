@@ -1,21 +1,24 @@
 """Getting up after a fall, as far as hands and feet (numba).
 
 Each tick of 10 ms calls `get_up_tick` while `MODE` is below `BORNE`; from then on `scrambling.scramble_tick`
-supports the body. The figure goes limp until it lies still, rolls onto its front over the nearer side,
-reaches out with its arms, draws its legs up, and pushes itself up. No posture is assumed: each phase ends
-when its result is observed, and a body that does not get onto its front tries the other side.
+supports the body. The figure protects itself as it falls (`bracing`), rolls onto its front over the nearer
+side, reaches out with its arms, draws its legs up, and pushes itself up. One that sinks down from hands and
+feet goes limp until it lies still. No posture is assumed: each phase ends when its result is observed, and a
+body that does not get onto its front goes limp, too, and tries the other side.
 """
 
 import math
 
 import numpy as np
 
-from locomotion.body.person import CONTROL_DT, JOINT_NAMES
+from locomotion.body.person import CONTROL_DT
 from locomotion.gaits.walk.layout import clamp
+from locomotion.recovery.bracing import begin_to_brace, brace
 from locomotion.recovery.layout import (
     ALL_DOWN,
     BEGUN_FROM,
     BORNE,
+    BRACING,
     CLOCK,
     DOWN,
     FACING,
@@ -38,21 +41,16 @@ from locomotion.recovery.layout import (
     TUCKING,
     TURNING,
 )  # fmt: skip
+from locomotion.recovery.postures import mirrored, posture
 from locomotion.recovery.scrambling import lie_of
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["bear_on", "begin_getting_up", "get_up_tick", "lies_on_front", "rise_on"]
+__all__ = ["bear_on", "begin_getting_up", "begin_to_fall", "get_up_tick", "lies_on_front", "rise_on"]
 
 _STILL, _LIMP_LEAST, _LIMP_MOST = 0.4, 0.2, 1.5  # [m/s], [s]
-_GATHER_TIME, _SWING_TIME, _FOLLOW_TIME, _REACH_TIME, _SETTLE_TIME, _TUCK_TIME, _RISE_TIME = (
-    0.6,
-    0.37,
-    0.5,
-    0.35,
-    0.1,
-    0.7,
-    0.7,
-)  # [s]
+_LIES, _BRACE_LEAST = 1.0, 0.4  # the same of one that has just fallen: it rolls on as it slides
+_GATHER_TIME, _SWING_TIME, _FOLLOW_TIME = 0.2, 0.33, 0.4  # [s]
+_REACH_TIME, _SETTLE_TIME, _TUCK_TIME, _RISE_TIME = 0.35, 0.1, 0.7, 0.7  # [s]
 _ROLLS, _SPREAD_TIME = 0.4, 0.3  # slope on which a limp body rolls down; [s]
 _STEADY, _BEARS, _STEADY_MOST = 0.15, 20.0, 8.0  # [m/s], [N] of each limb: it has come to rest on them; [s]
 _LOOKS = 4.0  # ticks after which it looks again whether it has tipped over
@@ -64,57 +62,38 @@ _ON_FRONT, _OFF_FRONT = (
 )  # upward share of the body's forward axis: lies on its front; does not any more
 
 
-def _posture(**degrees: float) -> np.ndarray:
-    """(39,) joint angles [rad] by name; without a side for both."""
-    angles = np.zeros(len(JOINT_NAMES))
-    for name, angle in degrees.items():
-        for i, joint in enumerate(JOINT_NAMES):
-            if joint == name or joint in (f"right_{name}", f"left_{name}"):
-                angles[i] = math.radians(angle)
-    return angles
-
-
 # over the right side: arched, arms overhead, the left leg swings across; then the left arm follows
-_SWING_OVER = _posture(
-    waist_pitch=-25, waist_yaw=-29, chest_pitch=-12, chest_roll=-20, chest_yaw=35,
-    right_shoulder_flexion=159, right_shoulder_abduction=-22, right_shoulder_rotation=-37,
-    left_shoulder_flexion=164, left_shoulder_abduction=14, left_shoulder_rotation=-42,
-    right_hip_flexion=-29, right_hip_abduction=-15, right_hip_rotation=-34, right_knee_flexion=89,
-    right_ankle_flexion=29, left_hip_flexion=125, left_hip_abduction=-27, left_hip_rotation=24,
-    left_ankle_flexion=-50,
+_SWING_OVER = posture(
+    waist_pitch=-25, waist_roll=-25, waist_yaw=3, chest_pitch=-18, chest_roll=-20, chest_yaw=35,
+    right_shoulder_flexion=171, right_shoulder_abduction=-24, right_shoulder_rotation=-39,
+    right_elbow_flexion=7, left_shoulder_flexion=179, left_shoulder_abduction=10,
+    left_shoulder_rotation=-29, left_elbow_flexion=9, right_hip_flexion=-24, right_hip_abduction=-30,
+    right_hip_rotation=-40, right_knee_flexion=92, right_ankle_flexion=30, left_hip_flexion=125,
+    left_hip_abduction=-30, left_hip_rotation=26, left_knee_flexion=-2, left_ankle_flexion=-40,
 )  # fmt: skip
-_FOLLOW_OVER = _posture(
-    waist_pitch=-23, waist_roll=22, waist_yaw=-29, chest_pitch=-11, chest_yaw=-35,
-    right_shoulder_flexion=178, right_shoulder_abduction=-16, right_shoulder_rotation=-56,
-    left_shoulder_flexion=58, left_shoulder_abduction=-29, left_shoulder_rotation=61,
-    right_hip_flexion=-29, right_hip_abduction=-7, right_hip_rotation=32, right_knee_flexion=99,
-    right_ankle_flexion=-50, left_hip_flexion=20, left_hip_abduction=45, left_hip_rotation=-34,
-    left_knee_flexion=150,
+_FOLLOW_OVER = posture(
+    waist_pitch=-24, waist_roll=7, waist_yaw=-30, chest_pitch=-20, chest_roll=6, chest_yaw=-33,
+    right_shoulder_flexion=180, right_shoulder_abduction=6, right_shoulder_rotation=-49,
+    right_elbow_flexion=4, left_shoulder_flexion=67, left_shoulder_abduction=-22, left_shoulder_rotation=41,
+    left_elbow_flexion=2, right_hip_flexion=-22, right_hip_abduction=-3, right_hip_rotation=45,
+    right_knee_flexion=92, right_ankle_flexion=-50, left_hip_flexion=14, left_hip_abduction=45,
+    left_hip_rotation=-23, left_knee_flexion=146, left_ankle_flexion=-9,
 )  # fmt: skip
-_GATHERED = _posture(shoulder_flexion=20, elbow_flexion=20)
-_REACH = _posture(
+_GATHERED = posture(
+    waist_pitch=9, chest_pitch=3, shoulder_flexion=-1, shoulder_abduction=11, shoulder_rotation=1,
+    elbow_flexion=10, hip_flexion=6, hip_abduction=-3, hip_rotation=-12, knee_flexion=-2, ankle_flexion=-1,
+)  # fmt: skip
+_REACH = posture(
     shoulder_flexion=0, shoulder_abduction=85, shoulder_rotation=-50, elbow_flexion=25, neck_pitch=-20,
     hip_abduction=20,
 )  # fmt: skip
-_TUCK = _posture(
+_TUCK = posture(
     shoulder_flexion=0, shoulder_abduction=65, shoulder_rotation=-20, elbow_flexion=105, hip_flexion=115,
     hip_abduction=40, knee_flexion=135, ankle_flexion=20, toe_extension=40, neck_pitch=-20,
 )  # fmt: skip
 
 
-def _mirrored(angles: np.ndarray) -> np.ndarray:
-    """The same posture of the other side."""
-    out = angles.copy()
-    for i, name in enumerate(JOINT_NAMES):
-        if name.startswith("right_"):
-            k = JOINT_NAMES.index("left_" + name[6:])
-            out[i], out[k] = angles[k], angles[i]
-        elif name.endswith(("_roll", "_yaw")):
-            out[i] = -angles[i]
-    return out
-
-
-_OVER = np.array([[_SWING_OVER, _FOLLOW_OVER], [_mirrored(_SWING_OVER), _mirrored(_FOLLOW_OVER)]])
+_OVER = np.array([[_SWING_OVER, _FOLLOW_OVER], [mirrored(_SWING_OVER), mirrored(_FOLLOW_OVER)]])
 
 
 @allocating_kernel
@@ -140,8 +119,16 @@ def steepness(ground, memory):
 
 
 @allocating_kernel
+def begin_to_fall(memory, qpos, qvel):
+    """The body falls out of a stand, a walk or a run."""
+    begin_getting_up(memory, qpos)
+    memory[MODE] = BRACING
+    begin_to_brace(memory, qvel)
+
+
+@allocating_kernel
 def begin_getting_up(memory, qpos):
-    """The body has fallen."""
+    """The body has sunk down."""
     memory[BEGUN_FROM] = qpos[7:]
     memory[MODE], memory[MODE_CLOCK], memory[TRIES] = LIMP, 0.0, 0.0
     memory[RISEN] = 0.0
@@ -163,17 +150,21 @@ def _move(begun, target, share, ctrl):
 
 
 @allocating_kernel
-def get_up_tick(ground, memory, qpos, ctrl):
+def get_up_tick(ground, memory, qpos, qvel, ctrl):
     """One control tick: advance ``memory``, write the PD targets ``ctrl`` (39,) [rad]."""
     memory[MODE_CLOCK] += CONTROL_DT
     clock, mode, begun = memory[MODE_CLOCK], memory[MODE], memory[BEGUN_FROM]
-    if mode == LIMP:
-        ctrl[:] = qpos[7:]
+    if mode <= LIMP:
+        if mode == BRACING:
+            brace(memory, qvel, ctrl)
+        else:
+            ctrl[:] = qpos[7:]
         if steepness(ground, memory) > _ROLLS:  # a body that spreads out does not roll down
             _move(begun, _REACH, clock / _SPREAD_TIME, ctrl)
         v = memory[SEEN_VELOCITY]
-        slow = math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) < _STILL
-        if (slow and clock > _LIMP_LEAST) or clock > _LIMP_MOST:
+        least, still = (_BRACE_LEAST, _LIES) if mode == BRACING else (_LIMP_LEAST, _STILL)
+        slow = math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) < still
+        if (slow and clock > least) or clock > _LIMP_MOST:
             front, left = lies_on_front(ground, memory)
             # over the side that is down already; if that failed, over the other
             memory[ROLL_SIDE] = (
@@ -182,12 +173,11 @@ def get_up_tick(ground, memory, qpos, ctrl):
             _go_on(memory, REACHING if front < _ON_FRONT else ROLLING, qpos[7:])
     elif mode == ROLLING:
         over = _OVER[int(memory[ROLL_SIDE])]
-        if memory[TRIES] > 0.0:
-            clock -= _GATHER_TIME  # arms and legs that are spread keep it from rolling
-        if clock <= 0.0:
+        clock -= _GATHER_TIME
+        if clock <= 0.0:  # arms and legs that are spread or bent keep it from rolling
             _move(begun, _GATHERED, 1.0 + clock / _GATHER_TIME, ctrl)
         elif clock <= _SWING_TIME:
-            _move(begun if memory[TRIES] == 0.0 else _GATHERED, over[0], clock / _SWING_TIME, ctrl)
+            _move(_GATHERED, over[0], clock / _SWING_TIME, ctrl)
         else:
             _move(over[0], over[1], (clock - _SWING_TIME) / _FOLLOW_TIME, ctrl)
         if clock > _SWING_TIME + _FOLLOW_TIME:

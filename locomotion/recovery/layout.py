@@ -3,7 +3,7 @@
 import numpy as np
 
 __all__ = [
-    "AIR", "ALL_DOWN", "ANCHORS", "AWAY", "AXES", "BEGUN_FROM", "BIAS", "BORNE", "CENTRE", "CLOCK",
+    "AIR", "ALL_DOWN", "ANCHORS", "AWAY", "AXES", "BEGUN_FROM", "BIAS", "BORNE", "BRACING", "CENTRE", "CLOCK",
     "DOWN", "FACING", "GATHERING", "GATHERS", "HOLDS", "HOMES", "LIE_AHEAD", "LIE_HERE", "LIFT", "LIMP",
     "LOADS", "MODE", "MODE_CLOCK", "PAIR", "PHASE", "REACHING", "RISEN", "RISING", "ROLLING", "ROLL_SIDE",
     "SCRAMBLE_SIZE",
@@ -36,7 +36,7 @@ HOLDS, AIR = slice(364, 376), slice(376, 380)
 MODE, MODE_CLOCK, ROLL_SIDE, TRIES = range(380, 384)
 """What the body does (one of the next line's, `AWAY` where hands and feet do not move it), for how long [s];
 side over which it rolls (0: right); times that rolling has failed."""
-AWAY, LIMP, ROLLING, REACHING, TUCKING, BORNE, RISING = -1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
+AWAY, BRACING, LIMP, ROLLING, REACHING, TUCKING, BORNE, RISING = -1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0
 BEGUN_FROM = slice(384, 423)
 """Joint angles [rad] with which what it does began."""
 LIE_HERE, LIE_AHEAD = slice(423, 425), slice(425, 427)

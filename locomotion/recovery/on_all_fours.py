@@ -22,7 +22,7 @@ from locomotion.ground.ground import Ground
 from locomotion.paths.command import ALONG_ASKED, HEADING_ASKED, SPEED_ASKED
 from locomotion.paths.follower import PathFollower
 from locomotion.paths.table import PathTable
-from locomotion.recovery.getting_up import begin_getting_up, get_up_tick, rise_on
+from locomotion.recovery.getting_up import begin_to_fall, get_up_tick, rise_on
 from locomotion.recovery.layout import AWAY, BORNE, FACING, MODE, RISEN, RISING, new_scramble
 from locomotion.recovery.rising import begin_to_rise, gather, ready_to_rise, rise_tick, stands
 from locomotion.recovery.scrambling import crouch, scramble_tick, steeper
@@ -87,7 +87,7 @@ class OnAllFours:
         """The body has fallen, in whatever position."""
         self.memory[:] = new_scramble()
         observe_scramble(self._parts, data, self.memory)
-        begin_getting_up(self.memory, data.qpos)
+        begin_to_fall(self.memory, data.qpos, data.qvel)
 
     def crouch(
         self, lookup: tuple[NDArray, ...], data: mujoco.MjData, place: NDArray[np.float64], yaw: float
@@ -125,7 +125,7 @@ class OnAllFours:
         """One control tick. ``command`` (4,): direction [rad] and speed [m/s]; ``stand``: whether to rise."""
         memory = self.memory
         if memory[MODE] < BORNE:
-            get_up_tick(lookup, memory, data.qpos, data.ctrl)
+            get_up_tick(lookup, memory, data.qpos, data.qvel, data.ctrl)
         elif memory[MODE] == RISING:
             rise_tick(memory, data.qpos, data.ctrl)
         else:

@@ -6,12 +6,12 @@
 
 People, dogs and walkers get new goals all over a level, are told to stop, and go over to recorded motion and
 back, all drawn by the seed. A frame is `World.step(1 / 60)`. Printed for each number of people are the mean,
-median, 99th percentile and longest of the frames after the first second and of `go_to`, by body; the kernels
-that compiled meanwhile; by how much the world is faster than real time; and the ratio of all frames to bare
-physics: `mj_step` of the simulated people from the states they were in, sampled during the play and timed in
-the same run; of those who run on level floors it is also compared with the same on a plane. Ratios are of
-processor times, so that they hardly depend on what else runs on the machine. Kernels are loaded before the
-play, as a game does with `runtime.prepare`.
+median, 99th percentile and longest of the frames after the first second, also of their processor time, and of
+`go_to`, by body; by how much the world is faster than real time; the ratio of all frames to bare physics:
+`mj_step` of the simulated people from the states they were in, sampled during the play and timed in the same
+run; the same of those who run on level floors over that on a plane; and the kernels that compiled meanwhile.
+Ratios are of processor times, so that they hardly depend on what else runs on the machine. Kernels are loaded
+before the play, as a game does with `runtime.prepare`.
 
 With ``--changes``, so many times a chunk of 10 m of a level of `benchmarks.large_levels` is taken out and put
 back: at once, then within so many seconds of the world's time, by turns. Printed is the longest frame from
@@ -50,13 +50,14 @@ _SAMPLES = 0.25  # [s] between states whose bare physics is timed
 
 @dataclass
 class Times:
-    """What was measured. ``frames``: [s] each. ``orders``: of each kind of body, [s] each. ``spent``: [s] of
-    processor time of all frames; ``bare``: of the ticks of bare physics that they contain; ``running``: of
-    such ticks of some who run, and with a plane under them instead. ``compiled``: kernels."""
+    """What was measured. ``frames``, ``spent``: [s] each, by the clock and of processor time. ``orders``: of
+    each kind of body, [s] each. ``bare``: [s] of processor time of the ticks of bare physics that all frames
+    contain; ``running``: of such ticks of some who run, and with a plane under them instead. ``compiled``:
+    kernels."""
 
     frames: list[float] = field(default_factory=list)
+    spent: list[float] = field(default_factory=list)
     orders: dict[str, list[float]] = field(default_factory=dict)
-    spent: float = 0.0
     bare: float = 0.0
     running: list[tuple[float, float]] = field(default_factory=list)
     compiled: int = 0
@@ -118,7 +119,7 @@ class Play:
                 passed, spent = time.perf_counter() - begun, time.process_time() - spent
                 if self.world.time > _BEGIN:
                     self.times.frames.append(passed)
-                    self.times.spent += spent
+                    self.times.spent.append(spent)
                     if self.world.time >= due:
                         self._time_bare(self.world.time - max(due - _SAMPLES, _BEGIN))
                         due = self.world.time + _SAMPLES
@@ -266,14 +267,15 @@ def main() -> None:
         )
         print(f"{people} people, {asked.dogs} dogs, {asked.walkers} walkers, {asked.seconds:g} s")
         print(told("  frames", times.frames))
+        print(told("  frames by processor time", times.spent))
         for body, orders in times.orders.items():
             print(told(f"  go_to of a {body}", orders))
-        passed = len(times.frames) * FRAME
+        passed, spent = len(times.frames) * FRAME, sum(times.spent)
         print(
-            f"  real time: {passed / sum(times.frames):.2f} x by the clock, {passed / times.spent:.2f} x by "
+            f"  real time: {passed / sum(times.frames):.2f} x by the clock, {passed / spent:.2f} x by "
             f"processor time ({asked.threads} threads)"
         )
-        print(f"  world.step over bare mj_step: {times.spent / max(times.bare, 1e-9):.2f}")
+        print(f"  world.step over bare mj_step: {spent / max(times.bare, 1e-9):.2f}")
         if times.running:
             here, plane = np.sum(times.running, axis=0)
             told_plane = f"{here / plane:.2f} ({len(times.running)} ticks)"

@@ -110,8 +110,6 @@ class GaitChanges:
         person, rehearses = self._person, self._decider.answer is not None
         if not rehearses and not self._composition.dares_to_set_off():
             return
-        if rehearses and speed >= RUN_ENTRY and not self._composition.may_find_a_way():
-            return
 
         def set_off(body: Chooser, choice: tuple[bool, Sequence[float], float]) -> None:
             quickly, run_up, ahead = choice

@@ -155,14 +155,16 @@ def get_up_tick(ground, memory, qpos, qvel, ctrl):
     memory[MODE_CLOCK] += CONTROL_DT
     clock, mode, begun = memory[MODE_CLOCK], memory[MODE], memory[BEGUN_FROM]
     if mode <= LIMP:
-        if mode == BRACING:
+        steep = steepness(ground, memory) > _ROLLS
+        braces = mode == BRACING and not steep
+        if braces:
             brace(memory, qvel, ctrl)
+        elif steep:  # a body that spreads out does not roll down
+            _move(begun, _REACH, clock / _SPREAD_TIME, ctrl)
         else:
             ctrl[:] = qpos[7:]
-        if steepness(ground, memory) > _ROLLS:  # a body that spreads out does not roll down
-            _move(begun, _REACH, clock / _SPREAD_TIME, ctrl)
         v = memory[SEEN_VELOCITY]
-        least, still = (_BRACE_LEAST, _LIES) if mode == BRACING else (_LIMP_LEAST, _STILL)
+        least, still = (_BRACE_LEAST, _LIES) if braces else (_LIMP_LEAST, _STILL)
         slow = math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) < still
         if (slow and clock > least) or clock > _LIMP_MOST:
             front, left = lies_on_front(ground, memory)
@@ -173,11 +175,14 @@ def get_up_tick(ground, memory, qpos, qvel, ctrl):
             _go_on(memory, REACHING if front < _ON_FRONT else ROLLING, qpos[7:])
     elif mode == ROLLING:
         over = _OVER[int(memory[ROLL_SIDE])]
-        clock -= _GATHER_TIME
-        if clock <= 0.0:  # arms and legs that are spread or bent keep it from rolling
+        # arms and legs that are spread or bent keep it from rolling; where it is steep, from rolling down
+        gathers = memory[TRIES] > 0.0 or steepness(ground, memory) < _ROLLS
+        if gathers:
+            clock -= _GATHER_TIME
+        if clock <= 0.0:
             _move(begun, _GATHERED, 1.0 + clock / _GATHER_TIME, ctrl)
         elif clock <= _SWING_TIME:
-            _move(_GATHERED, over[0], clock / _SWING_TIME, ctrl)
+            _move(_GATHERED if gathers else begun, over[0], clock / _SWING_TIME, ctrl)
         else:
             _move(over[0], over[1], (clock - _SWING_TIME) / _FOLLOW_TIME, ctrl)
         if clock > _SWING_TIME + _FOLLOW_TIME:

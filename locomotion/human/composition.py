@@ -36,7 +36,8 @@ __all__ = ["HOPELESS", "Composition", "checked_bravery"]
 
 HOPELESS = 0.3
 """Odds in a run-up below which rehearsing how to go on is not worth it: of 44 such steps of people in a
-courtyard 43 had no answer in time, and the other was in vain; on 14 courses of ten obstacles none of 82 had odds so low."""
+courtyard 43 had no answer in time, and the other was in vain; on 14 courses of ten obstacles none of 82 had
+odds so low."""
 _TO_SET_OFF = 0.5
 """Share of the odds wanted in the run-up with which it sets off: it may still turn away."""
 _BETTER = 0.02  # by which the odds of another variation have to be better

@@ -11,12 +11,12 @@ from surefoot.kernels import kernel
 __all__ = ["loses_balance"]
 
 _AHEAD = 0.1  # [s] that it is seen coming
-_LOWEST, _UPRIGHT = 0.45, 0.35  # [m] of the centre of mass above a foot; share of the chest's axis upward
-# below which it has fallen, as in `gaits.run.controller.observe`
-_CROUCHED = (
-    0.6  # [m] of the centre of mass above a foot, below which nobody comes up from such a tilt: behind
-)
-# obstacles people lean as far, but are higher
+_LOWEST, _UPRIGHT = 0.45, 0.35
+# [m] of the centre of mass above a foot, and share of the chest's axis upward, below which it has fallen, as
+# in `gaits.run.controller.observe`
+_CROUCHED = 0.6
+# [m] of the centre of mass above a foot, below which nobody comes up from such a tilt; behind obstacles
+# people lean as far, but are higher
 
 
 @kernel

@@ -279,7 +279,7 @@ def main() -> None:
         if times.running:
             here, plane = np.sum(times.running, axis=0)
             told_plane = f"{here / plane:.2f} ({len(times.running)} ticks)"
-            print(f"  mj_step of who runs over the same on a plane: {told_plane}")
+            print(f"  mj_step of runners, over the same steps on a plane: {told_plane}")
         print(f"  kernels compiled: {times.compiled}")
 
 

@@ -9,6 +9,8 @@ from surefoot.kernels import kernel
 
 __all__ = ["add_discs", "write_discs"]
 
+_VX, _VY, _RADIUS = range(3, 6)  # places in the row of a disc
+
 
 @kernel
 def write_discs(rows, origin, discs):
@@ -17,7 +19,7 @@ def write_discs(rows, origin, discs):
         row, disc = rows[k], discs[k]
         for axis in range(3):
             disc[axis] = row[at.X + axis] + origin[axis]
-        disc[3], disc[4], disc[5] = row[at.VX], row[at.VY], row[at.RADIUS]
+        disc[_VX], disc[_VY], disc[_RADIUS] = row[at.VX], row[at.VY], row[at.RADIUS]
 
 
 @kernel
@@ -28,7 +30,7 @@ def add_discs(rows, origin, discs):
         row[:] = 0.0
         for axis in range(3):
             row[at.X + axis] = disc[axis] - origin[axis]
-        row[at.VX], row[at.VY] = disc[3], disc[4]
-        row[at.GO_X], row[at.GO_Y] = disc[3], disc[4]
-        row[at.RADIUS], row[at.MODE] = disc[5], at.LED
+        row[at.VX], row[at.VY] = disc[_VX], disc[_VY]
+        row[at.GO_X], row[at.GO_Y] = disc[_VX], disc[_VY]
+        row[at.RADIUS], row[at.MODE] = disc[_RADIUS], at.LED
         row[at.WEIGHT], row[at.CELL] = at.UNMOVED, -1.0

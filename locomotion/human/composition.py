@@ -35,9 +35,9 @@ from surefoot.numeric import is_finite
 __all__ = ["HOPELESS", "Composition", "checked_bravery"]
 
 HOPELESS = 0.3
-"""Odds in a run-up below which rehearsing how to go on is not worth it: of 44 such steps of people in a
-courtyard 43 had no answer in time, and the other was in vain; on 14 courses of ten obstacles none of 82 had
-odds so low."""
+"""Odds in a run-up below which rehearsing how to go on is not worth it. There were 44 such steps in a
+courtyard: for 43 the answer came too late, for the last one nothing held. On 14 courses of ten obstacles none
+of 82 steps had odds so low."""
 _TO_SET_OFF = 0.5
 """Share of the odds wanted in the run-up with which it sets off: it may still turn away."""
 _BETTER = 0.02  # by which the odds of another variation have to be better
@@ -172,8 +172,8 @@ class Composition:
         return TurnedAway(person.time, person.point, obstacle.affordance, obstacle.size, best)
 
     def _odds_of_variations(self) -> NDArray[np.float64] | None:
-        """(1 + k,) odds of the step of a run-up that has just begun, as it is planned and for each of
-        `RUN_UPS`; None where there is none, or nothing is known."""
+        """(1 + k,) odds if the step of a run-up that has just begun is made as planned, and with each of
+        `RUN_UPS`. None if no such step has begun, or nothing is known of the skill."""
         person, obstacle = self._person, self._person.run_up.ahead
         if obstacle is None or not self._in_run_up or person.control[controller.STEP_TIME] > 0.0:
             return None

@@ -46,9 +46,8 @@ def with_room(route: Route, leg: Leg, room: float) -> Leg:
 def _walkable(
     graph: NodeGraph, led: NDArray[np.float64], points: NDArray[np.float64], radius: float
 ) -> NDArray[np.float64]:
-    """``led`` (n, 3) [m], with ``points`` (n, 3) in the place of those between which a body of ``radius`` [m]
-    cannot walk straight on."""
-    led = led.copy()
+    """``led`` (n, 3) [m], changed in place: where a body of ``radius`` [m] cannot walk straight from one of
+    them to the next, both are put back to those of ``points`` (n, 3)."""
     for _ in range(_REPAIRS):
         moved = (led != points).any(axis=1)
         legs = np.flatnonzero(moved[:-1] | moved[1:])

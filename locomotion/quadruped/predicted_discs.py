@@ -25,6 +25,7 @@ __all__ = [
     "nobody",
 ]
 
+_X, _Y, _Z, _VX, _VY, _RADIUS = range(6)  # places in the row of a disc
 DISCS = 3
 """Number of discs that cover an animal on the ground: at the rear feet, the middle and the front feet."""
 _SHARES = np.linspace(0.0, 1.0, DISCS)[:, None]
@@ -48,10 +49,10 @@ def cover_with_discs(states, radii, rows):
         st = states[k]
         for disc in range(DISCS):
             row, share = rows[DISCS * k + disc], _SHARES[disc, 0]
-            row[0] = st[at.X] + share * (st[at.FRONT_X] - st[at.X])
-            row[1] = st[at.Y] + share * (st[at.FRONT_Y] - st[at.Y])
-            row[2], row[3], row[4] = st[at.HEIGHT], st[at.RATE], st[at.RATE + 1]
-            row[5] = radii[k]
+            row[_X] = st[at.X] + share * (st[at.FRONT_X] - st[at.X])
+            row[_Y] = st[at.Y] + share * (st[at.FRONT_Y] - st[at.Y])
+            row[_Z], row[_VX], row[_VY] = st[at.HEIGHT], st[at.RATE], st[at.RATE + 1]
+            row[_RADIUS] = radii[k]
 
 
 @allocating_kernel

@@ -48,7 +48,7 @@ from surefoot.kernels import allocating_kernel, kernel
 __all__ = ["bear_on", "begin_getting_up", "begin_to_fall", "get_up_tick", "lies_on_front", "rise_on"]
 
 _STILL, _LIMP_LEAST, _LIMP_MOST = 0.4, 0.2, 1.5  # [m/s], [s]
-_LIES, _BRACE_LEAST = 1.0, 0.4  # the same of one that has just fallen: it rolls on as it slides
+_LIES, _BRACE_LEAST = 1.0, 0.4  # [m/s], [s] for a body that braces: it may roll over while it still slides
 _GATHER_TIME, _SWING_TIME, _FOLLOW_TIME = 0.2, 0.33, 0.4  # [s]
 _REACH_TIME, _SETTLE_TIME, _TUCK_TIME, _RISE_TIME = 0.35, 0.1, 0.7, 0.7  # [s]
 _ROLLS, _SPREAD_TIME = 0.4, 0.3  # slope on which a limp body rolls down; [s]

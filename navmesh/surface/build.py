@@ -213,13 +213,13 @@ def surface_of(cells: Cells, grid: Grid, threads: int = 1) -> Surface:
 
 
 def without_nearest(surface: Surface) -> Surface:
-    """``surface`` as it is kept: `nearest` is recalled."""
+    """``surface`` without its `kept_nearest`, which saves memory; `nearest` is worked out when asked for."""
     return replace(surface, kept_nearest=np.empty((0, 2)))
 
 
 def surface_with_nearest(cells: Cells, grid: Grid, threads: int = 1) -> Surface:
-    """The surface that ``cells`` make up, for who is to measure all of it: with `nearest` kept, unless it has
-    more than `_MOST_KEPT` cells."""
+    """The surface that ``cells`` make up. Up to `_MOST_KEPT` cells it keeps `nearest`, which makes measuring
+    all of it quicker."""
     h, (nx, ny) = grid.resolution, grid.shape
     cell_column = columns_of_all(cells.column_start)
     nearest = blockers.nearest_blockers(

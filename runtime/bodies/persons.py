@@ -74,7 +74,7 @@ class Persons(Population):
             return driver
         if level == driver.detail:
             return driver
-        self.prepare_levels()  # now, for who asks: who cannot change yet, or changes back, does so in a tick
+        self.prepare_levels()  # in this call: the change itself may come later, in a tick
         taken: Driver | None = None
         if isinstance(driver, HumanDriver):
             if not (at_once or driver.on_its_feet):

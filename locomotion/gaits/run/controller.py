@@ -101,10 +101,14 @@ from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "ACTIONS", "CLIMB", "COM", "COM_AT_SWITCH", "COM_VELOCITY", "CONTACT", "FALLEN", "FEET", "HEADING",
-    "LAST_TARGET", "MIN_PHASE", "OBSERVED", "PARAMETERS", "PHASE", "PLANTED", "SENSORS", "SENSOR_VALUES",
-    "SLOPE", "SPEED", "STANCE", "STATE_SIZE", "STEPS", "STEP_LENGTH", "STEP_SPEED", "STEP_TIME", "TICKS",
+    "LAST_TARGET", "LEAST_UPRIGHT", "LOWEST", "MIN_PHASE", "OBSERVED", "PARAMETERS", "PHASE", "PLANTED",
+    "SENSORS", "SENSOR_VALUES", "SLOPE", "SPEED", "STANCE", "STATE_SIZE", "STEPS", "STEP_LENGTH",
+    "STEP_SPEED", "STEP_TIME", "TICKS",
     "TRIM", "TURN_RATE", "new_state", "observe", "parameter_slices", "run_tick",
 ]  # fmt: skip
+LOWEST, LEAST_UPRIGHT = 0.45, 0.35
+"""[m] of the centre of mass above the lower foot, and share of the chest's axis upward: a body with less than
+either has fallen."""
 _SP = parameter_slices()
 _M_AP, _M_SP, _POSTURE, _A_HAT = (_SP[k].start for k in ("m_ap", "m_sp", "posture", "a_hat"))
 _FF, _TURN, _CLIMB, _TIMING = (_SP[k].start for k in ("feed_forward", "turn", "climb", "timing"))
@@ -409,7 +413,7 @@ def _observe(
                 total += forces[addresses[c] + k]
             state[RIGHT_CONTACT if side < 0 else LEFT_CONTACT] += total
     lowest = min(right[2], left[2])
-    if com[2] - lowest < 0.45 or frames[chest, 8] < 0.35:
+    if com[2] - lowest < LOWEST or frames[chest, 8] < LEAST_UPRIGHT:
         state[FALLEN] = 1.0
 
 

@@ -11,6 +11,7 @@ from navmesh.graph.nodes import grain_of
 from navmesh.surface.storeys import linked
 from navmesh.surface.surface import Surface
 from navmesh.zones.distances import segments_to_outline
+from navmesh.zones.kept_pieces import room_for_states
 from navmesh.zones.leaps import links_near
 from navmesh.zones.lists import grouped, lists_with, sides_of
 from navmesh.zones.outlines import Concerned, concerned_by
@@ -40,7 +41,7 @@ class Divided(NamedTuple):
     surface: Surface
     """With arrays of its own where zones change them."""
     switches: dict
-    """The fields of `navmesh.zones.switching.SWITCHES` but those of slots and of nodes."""
+    """The fields of `navmesh.zones.switches.SWITCHES` but those of slots and of nodes."""
     user_near: tuple[np.ndarray, np.ndarray]
     """By zone, as start (z + 1,) and values: the discs whose edges, or those of whose pieces, it may
     narrow."""
@@ -161,20 +162,19 @@ def _users(graph: "NodeGraph", outlines: list[np.ndarray], found: list[Concerned
     cell_row[row_cell] = np.arange(len(row_cell))
     row_user = np.repeat(np.arange(len(whole), dtype=np.int32), np.diff(row_start))
     beside = graph.surface.links(row_cell)
-    at_rim = ((beside >= 0) & (owner[beside] != row_user[:, None])).any(axis=1)
-    rim_start, rim = grouped(row_user[at_rim], len(whole), np.flatnonzero(at_rim).astype(np.int32))
-    return {
-        "user_start": np.cumsum([0, *map(len, follow)]).astype(np.int32),
-        "user": number[np.concatenate(follow).astype(np.int64)],
+    row, way = np.nonzero((beside >= 0) & (owner[beside] != row_user[:, None]))
+    rim = np.column_stack([row_cell[row], way, beside[row, way]]).astype(np.int32)
+    rim_start, rim = grouped(row_user[row], len(whole), rim)
+    user_start = np.cumsum([0, *map(len, follow)]).astype(np.int32)
+    user = number[np.concatenate(follow).astype(np.int64)]
+    return room_for_states(user_start, user, row_start) | {
+        "user_start": user_start, "user": user,
         "user_cut": np.concatenate(is_cut).astype(np.int32), "whole": whole,
         "whole_radius": graph.radii[whole], "broken": np.zeros(len(whole), np.int32),
         "turned": np.zeros(len(whole), np.int64), "row_start": row_start, "row_cell": row_cell,
         "row_user": row_user, "row_power": np.empty(len(row_cell)), "cell_row": cell_row,
         "piece_count": np.zeros(len(whole), np.int32), "piece": np.empty(len(row_cell), np.int32),
-        "kept_sign": np.zeros(len(whole), np.int64), "kept_count": np.full(len(whole), -1, np.int32),
-        "kept_label": np.empty(len(row_cell), np.int32), "kept_piece": np.empty(len(row_cell), np.int32),
-        "kept_radius": np.empty(len(row_cell)), "rim_start": rim_start, "rim": rim,
-        "seam_count": np.zeros(len(whole), np.int32), "seam": np.empty(len(row_cell), np.int32),
+        "rim_start": rim_start, "rim": rim,
     }  # fmt: skip
 
 

@@ -1,8 +1,7 @@
 """Results that come up again when zones are blocked and opened by turns, kept by what they depend on.
 
 A *sign* of a node is a number that says which of the zones near it are blocked now. What is between two nodes
-follows from them and their signs. There is one place for each of these, as many as there are places; what
-comes later takes it.
+follows from them and their signs. There are two places for each of these; what comes later takes one of them.
 """
 
 import numpy as np
@@ -29,8 +28,13 @@ def sign_of(switches, node):
 @kernel
 def place_of(kept, key, sign):
     """Where in ``kept`` the result of ``key``, at least 0, and ``sign`` is or goes, and whether it is
-    there."""
+    there: one of two places side by side."""
     mixed = (key * MIX) ^ sign
     mixed ^= mixed >> 29
     at = (mixed * MIX >> 20) & (kept.shape[0] - 1)
-    return at, kept[at, 0] == key and kept[at, 1] == sign
+    beside = at ^ 1
+    if kept[at, 0] == key and kept[at, 1] == sign:
+        return at, True
+    if kept[beside, 0] == key and kept[beside, 1] == sign:
+        return beside, True
+    return (at if kept[at, 0] < 0 else beside), False

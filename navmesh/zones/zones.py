@@ -11,7 +11,8 @@ from navmesh.errors import NavmeshError
 from navmesh.graph.kernel_arrays import net_of
 from navmesh.zones.dividing import Divided, divide
 from navmesh.zones.memo import nothing_kept
-from navmesh.zones.switching import SLOTS, SWITCHES, turn
+from navmesh.zones.switches import SLOTS, SWITCHES
+from navmesh.zones.switching import turn
 from surefoot.kernels.bundles import Bundle
 
 if TYPE_CHECKING:
@@ -73,15 +74,26 @@ class Zones:
                 zone = self._number[name]
                 if self.blocked[zone] == blocked:
                     continue
-                most = self._fields["numbers"][SLOTS] + self.divided.bound[zone]
-                if most > len(self._fields["target"]):
-                    self._with_slots(2 * int(most))
-                turn(self.switches, net, zone, int(blocked))
+                self._turn_one(net, zone, blocked)
                 self._log.append(zone)
                 self.changes += 1
             if len(self._log) > max(1024, 2 * len(self._number)):
                 self._first += len(self._log) - 256
                 del self._log[:-256]
+
+    def rehearse(self, graph: "NodeGraph") -> None:
+        """Block and open each zone by itself, so that its pieces are known when it is blocked for the first
+        time."""
+        net = net_of(graph)
+        for zone in range(len(self.outlines)):
+            for blocked in (True, False):
+                self._turn_one(net, zone, blocked)
+
+    def _turn_one(self, net: Any, zone: int, blocked: bool) -> None:
+        most = self._fields["numbers"][SLOTS] + self.divided.bound[zone]
+        if most > len(self._fields["target"]):
+            self._with_slots(2 * int(most))
+        turn(self.switches, net, zone, int(blocked))
 
     def turned_since(self, change: int) -> list[int]:
         """The zones turned since there were so many changes, each once; all if that is not known any more."""
@@ -137,6 +149,7 @@ def zoned_graph(
         graph, surface=divided.surface, positions=positions, radii=radii, label=label, edge_start=start,
         node_cell=np.concatenate([graph.node_cell, np.zeros(pieces, np.int32)]), zone_state=zones, cache={},
     )  # fmt: skip
+    zones.rehearse(zoned)
     zones.turn(zoned, [name for name in outlines if blocked.get(name)], True)
     return zoned
 

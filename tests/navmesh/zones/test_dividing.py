@@ -44,8 +44,10 @@ def test_rows_are_the_cells_of_discs_that_can_be_broken():
     linked = graph.surface.link[users["row_cell"]] >= 0
     outside = np.unique(beside[linked & (beside >= 0) & ~np.isin(beside, users["whole"])])
     np.testing.assert_array_equal(made.fringe, outside)
-    at_rim = (linked & (beside != owner[:, None])).any(axis=1)
-    assert set(users["rim"]) == set(np.flatnonzero(at_rim))
+    row, way = np.nonzero(linked & (beside != owner[:, None]))
+    cell = users["row_cell"][row]
+    at_rim = np.column_stack([cell, way, graph.surface.link[cell, way]])
+    assert set(map(tuple, users["rim"])) == set(map(tuple, at_rim))
     assert (made.surface.clearance == graph.surface.clearance).all()
     assert made.surface.storey is not graph.surface.storey
 

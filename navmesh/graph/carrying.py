@@ -3,7 +3,7 @@ by radius, and where crowds find passages narrow, by width. It is renewed when a
 update (`navmesh.graph.portal_changes`, `navmesh.graph.part_changes`, `locomotion.crowd.throats`)."""
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -39,7 +39,8 @@ class Changes:
 class Earlier:
     """What was known of a graph, for one radius or width, before some changes."""
 
-    known: tuple[np.ndarray, ...]
+    known: tuple[Any, ...]
+    """Arrays, or tuples of them."""
     column_start: np.ndarray
     milestone: np.ndarray
     """Those of the surface then."""

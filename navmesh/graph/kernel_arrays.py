@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numba import float64, int32, int64
 
+from navmesh.graph.parts import Tiles, grouped_by_part
 from navmesh.routes.graph_search import LABELS
 from navmesh.surface.net import NODE
 from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
@@ -18,7 +19,7 @@ from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
 if TYPE_CHECKING:
     from navmesh.graph.node_graph import NodeGraph
 
-__all__ = ["DOOR", "DOORS", "SCRATCH", "door_rows", "make_doors", "make_scratch", "net_of"]
+__all__ = ["DOOR", "DOORS", "SCRATCH", "door_rows", "make_doors", "make_scratch", "net_of", "tile_fields"]
 
 DOOR = np.dtype([("portal", "f8", 6), ("portal_cell", "i4", 2), ("target", "i4"), ("", "i4")])
 """A row of `DOORS.doors`."""
@@ -62,6 +63,10 @@ DOORS = BundleType(
     tile_start=int32[::1],
     tile_part=int32[::1],
     tile_span=float64[:, ::1],
+    tile_block=int64[::1],
+    part_row_start=int32[::1],
+    part_row=int32[::1],
+    row_tile=int32[::1],
 )
 """What one body radius makes of the graph.
 
@@ -80,7 +85,8 @@ radius [m] of the widest disc. part (m,): which nodes can be walked to from each
 `navmesh.graph.parts`; region (p,): the same for parts that open zones join, by its first part, and ring (p,)
 the next part of it; part_whole (p,): as whole; part_leap_start (p + 1,), part_leap (l,): the leaps from each
 part; anywhere: the part that stands in tiles for those near zones, or -1; tile_start (t + 1,), tile_part
-(p,), tile_span (p, 2): the parts in each tile, and the least and greatest height [m] of the floor there.
+(r,), tile_span (r, 2), tile_block (r,): `navmesh.graph.parts.Tiles`; part_row_start (p + 1,), part_row (r,):
+which of these rows each part has, and row_tile (r,) the tile of each.
 """
 
 SCRATCH = BundleType(
@@ -119,7 +125,7 @@ numbers: the stamp of the current search and its counters, see `navmesh.routes.g
 goal. For each node: stamp, the last search that came to it; label (LABELS): the numbers of its labels, or -1,
 and label_total, their totals, or inf. For each label: node, cost, total, apex, left, right (3), parent, via:
 the door, or the number of doors + leap; aside: whether it has been set aside. heap_key, heap_item: the open
-list; reached: for each part the last search that can get to it, part_stack: those still to be gone on from;
+list; reached: for each part the last search that can get to it, part_stack: regions that it gets to;
 nodes, edges: the chain found; points, cells: the corners pulled; corner, corner_at: those of the funnel; arc:
 those that round one of them; bend: those that lead a line round a place; trial, trial_cell: corners to be put
 in the place of one; kept, kept_nodes, kept_leaps: the best line so far; saved, saved_cell: corners to go back
@@ -161,6 +167,16 @@ def _net(graph: "NodeGraph") -> Any:
 def door_rows(target: np.ndarray, portal: np.ndarray, portal_cell: np.ndarray) -> np.ndarray:
     """The doors' table of `DOORS` from its columns."""
     return _table(DOOR, portal=portal, portal_cell=portal_cell, target=target)
+
+
+def tile_fields(tiles: Tiles, parts: int) -> dict[str, np.ndarray]:
+    """The fields of `DOORS` for ``tiles`` with so many ``parts``."""
+    start, row = grouped_by_part(tiles.part, parts)
+    return {
+        "tile_start": tiles.start, "tile_part": tiles.part, "tile_span": tiles.span,
+        "tile_block": tiles.block, "part_row_start": start, "part_row": row,
+        "row_tile": np.repeat(np.arange(len(tiles.start) - 1, dtype=np.int32), np.diff(tiles.start)),
+    }  # fmt: skip
 
 
 def make_doors(

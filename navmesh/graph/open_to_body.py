@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from navmesh.errors import NavmeshError
-from navmesh.graph.kernel_arrays import make_doors
+from navmesh.graph.kernel_arrays import make_doors, tile_fields
 from navmesh.graph.part_changes import tiles_for
-from navmesh.graph.parts import leaps_by_part, parts_of_nodes
+from navmesh.graph.parts import Tiles, grouped_by_part, parts_of_nodes
 from navmesh.graph.portal_changes import portals_for
 from navmesh.obstacles.kinds import affordances
 from navmesh.recent import recent
@@ -74,14 +74,13 @@ def _checked_costs(graph: "NodeGraph", costs: Any) -> np.ndarray | None:
     return checked
 
 
-def parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, ...]:
-    """The part of each node for a body of ``radius``, and the parts in each tile (CSR) with heights; see
-    `navmesh.graph.parts`."""
+def parts_of(graph: "NodeGraph", radius: float) -> tuple[np.ndarray, Tiles]:
+    """The part of each node for a body of ``radius``, and the parts in each tile."""
 
-    def make() -> tuple[np.ndarray, ...]:
+    def make() -> tuple[np.ndarray, Tiles]:
         start, doors = portals_of(graph, radius)[:2]
         part = parts_of_nodes(start, np.ascontiguousarray(doors["target"]))
-        return part, *tiles_for(graph, part, radius)
+        return part, tiles_for(graph, part, radius)
 
     return recent(graph.cache, "parts", radius, make)
 
@@ -180,9 +179,9 @@ def _doors(
     weighted = node_costs is not None
     if graph.zone_state is not None:
         return zoned_body(graph, radius).doors(leaps, costs, weighted)
-    part, tile_start, tile_part, tile_span = parts_of(graph, radius)
+    part, tiles = parts_of(graph, radius)
     every = np.arange(int(part.max(initial=-1)) + 1, dtype=np.int32)
-    part_leap_start, part_leap = leaps_by_part(part[leaps.pop("leap_node")], len(every))
+    part_leap_start, part_leap = grouped_by_part(part[leaps.pop("leap_node")], len(every))
     leaps["whole"] = np.arange(count, dtype=np.int32)
     parts = {
         "part": part,
@@ -192,10 +191,8 @@ def _doors(
         "anywhere": -1,
         "part_leap_start": part_leap_start,
         "part_leap": part_leap,
-        "tile_start": tile_start,
-        "tile_part": tile_part,
-        "tile_span": tile_span,
     }
+    parts |= tile_fields(tiles, len(every))
     return make_doors(
         radius, portals_of(graph, radius), costs, weighted, leaps, parts, float(graph.radii.max())
     )

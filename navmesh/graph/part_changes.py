@@ -11,7 +11,7 @@ import numpy as np
 from navmesh.graph.carrying import earlier_of
 from navmesh.graph.kernel_arrays import net_of
 from navmesh.graph.node_changes import boxes_of
-from navmesh.graph.parts import TILE, KeptTiles, parts_of_tiles
+from navmesh.graph.parts import TILE, KeptTiles, Tiles, parts_of_tiles
 from surefoot.kernels import allocating_kernel, kernel
 
 if TYPE_CHECKING:
@@ -23,20 +23,20 @@ _SEEN = 3
 """Columns around a tile on which its parts depend: nodes of cells beside its own count."""
 
 
-def tiles_for(graph: "NodeGraph", part: np.ndarray, radius: float) -> tuple[np.ndarray, ...]:
+def tiles_for(graph: "NodeGraph", part: np.ndarray, radius: float) -> Tiles:
     """What `parts_of_tiles` gives for the ``part`` (m,) of each node for a body of ``radius`` [m]."""
     net, earlier = net_of(graph), earlier_of(graph, "parts", radius)
     if earlier is None:
         return parts_of_tiles(net, part, radius)
-    part_before, start, parts, span = earlier.known
+    part_before, before = earlier.known
     heir, strays = _heirs(part_before, part, earlier.changes.number)
     place = np.column_stack([graph.positions[strays, :2] - graph.surface.origin[:2], graph.radii[strays]])
     windows = np.array(earlier.changes.windows, np.int64).reshape(-1, 4)
     kept = np.ones([-(-columns // TILE) for columns in graph.surface.shape], np.bool_)
     _leave_near(kept, np.concatenate([windows, boxes_of(place, graph.surface.resolution)]))
-    kept, now = kept.reshape(-1), heir[parts]
-    _leave_mixed(kept, start, now)
-    return parts_of_tiles(net, part, radius, KeptTiles(kept, start, now, span))
+    kept, now = kept.reshape(-1), heir[before.part]
+    _leave_mixed(kept, before.start, now)
+    return parts_of_tiles(net, part, radius, KeptTiles(kept, before._replace(part=now)))
 
 
 @allocating_kernel(nogil=True)

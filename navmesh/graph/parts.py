@@ -11,10 +11,15 @@ from navmesh.surface.floor_store import height_of
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel
 
-__all__ = ["TILE", "KeptTiles", "leaps_by_part", "parts_in_tiles", "parts_of_nodes", "parts_of_tiles"]
+__all__ = [
+    "BLOCK", "TILE", "KeptTiles", "Tiles",
+    "grouped_by_part", "parts_in_tiles", "parts_of_nodes", "parts_of_tiles",
+]  # fmt: skip
 
 TILE = 16
 """Columns a side of the tiles by which far places are looked for."""
+BLOCK = 2
+"""Columns a side of the blocks of a tile, of which a bit each says whether a part has a place there."""
 
 
 @allocating_kernel(nogil=True)
@@ -44,57 +49,67 @@ def parts_of_nodes(start, target):
     return part
 
 
+class Tiles(NamedTuple):
+    """In which parts a body can be in each tile of `TILE` x `TILE` columns, and where there."""
+
+    start: np.ndarray
+    """(t + 1,) int32: the first of each tile tx * tiles_y + ty."""
+    part: np.ndarray
+    """(p,) int32."""
+    span: np.ndarray
+    """(p, 2) float64 [m]: the least and the greatest height of the floor there."""
+    block: np.ndarray
+    """(p,) int64: in which blocks; bit 8 bx + by is that of columns from (`BLOCK` bx, `BLOCK` by) on."""
+
+
 class KeptTiles(NamedTuple):
     """What is known of some tiles."""
 
     kept: np.ndarray
     """(t,) bool: of which."""
-    start: np.ndarray
-    part: np.ndarray
-    span: np.ndarray
-    """As `parts_of_tiles` gives them; read where kept."""
+    tiles: Tiles
+    """Read where kept."""
 
 
-def parts_of_tiles(
-    net: Any, part: np.ndarray, radius: float, known: KeptTiles | None = None
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """In which parts a body of ``radius`` can be in each tile of `TILE` x `TILE` columns, and how high.
-
-    In CSR form: start (t + 1,) int32; parts (p,) int32, and the least and the greatest height of the floor
-    there (p, 2) float64 [m]; tile tx * tiles_y + ty. What is ``known`` of tiles is not worked out.
-    """
+def parts_of_tiles(net: Any, part: np.ndarray, radius: float, known: KeptTiles | None = None) -> Tiles:
+    """In which parts a body of ``radius`` can be in each tile. What is ``known`` is not worked out."""
     if known is None:
         none = np.zeros(-(-net.nx // TILE) * -(-net.ny // TILE), np.bool_)
-        known = KeptTiles(none, np.empty(0, np.int32), np.empty(0, np.int32), np.empty((0, 2)))
-    return _parts_of_tiles(net, part, radius, known)
+        nothing = np.empty(0, np.int32)
+        known = KeptTiles(none, Tiles(nothing, nothing, np.empty((0, 2)), np.empty(0, np.int64)))
+    return Tiles(*_parts_of_tiles(net, part, radius, known.kept, known.tiles))
 
 
 @allocating_kernel(error_model="numpy", nogil=True)
-def _parts_of_tiles(net, part, radius, known):
+def _parts_of_tiles(net, part, radius, kept, known):
     across, along = (net.nx + TILE - 1) // TILE, (net.ny + TILE - 1) // TILE
     least, half = radius - 0.7072 * net.cell, 0.5 * net.cell
     start = np.zeros(across * along + 1, np.int32)
     found = np.empty(256, np.int32)
     span = np.empty((256, 2))
+    block = np.empty(256, np.int64)
     count = 0
     for tx in range(across):
         for ty in range(along):
             first = last = count
             tile = tx * along + ty
-            if known.kept[tile]:
+            if kept[tile]:
                 for at in range(known.start[tile], known.start[tile + 1]):
                     if count == found.size:
                         found = np.concatenate((found, np.empty_like(found)))
                         span = np.concatenate((span, np.empty_like(span)))
-                    found[count] = known.part[at]
+                        block = np.concatenate((block, np.empty_like(block)))
+                    found[count], block[count] = known.part[at], known.block[at]
                     span[count, 0], span[count, 1] = known.span[at, 0], known.span[at, 1]
                     count += 1
                 start[tile + 1] = count
                 continue
-            for ix in range(tx * TILE, min((tx + 1) * TILE, net.nx)):
-                low = net.column_start[ix * net.ny + ty * TILE]
-                high = net.column_start[ix * net.ny + min((ty + 1) * TILE, net.ny)]
-                for k in range(low, high):
+            for column in range(TILE * TILE):
+                ix, iy = tx * TILE + column // TILE, ty * TILE + column % TILE
+                if ix >= net.nx or iy >= net.ny:
+                    continue
+                bit = np.int64(1) << (TILE // BLOCK * (column // TILE // BLOCK) + column % TILE // BLOCK)
+                for k in range(net.column_start[ix * net.ny + iy], net.column_start[ix * net.ny + iy + 1]):
                     if net.clearance[k] < least:
                         continue
                     slope_x, slope_y = slope_at(net, k)
@@ -111,41 +126,50 @@ def _parts_of_tiles(net, part, radius, known):
                             if count == found.size:
                                 found = np.concatenate((found, np.empty_like(found)))
                                 span = np.concatenate((span, np.empty_like(span)))
-                            found[at], span[at, 0], span[at, 1] = part[node], bottom, top
+                                block = np.concatenate((block, np.empty_like(block)))
+                            found[at], span[at, 0], span[at, 1], block[at] = part[node], bottom, top, bit
                             count += 1
                         else:
                             span[at, 0], span[at, 1] = min(span[at, 0], bottom), max(span[at, 1], top)
+                            block[at] |= bit
                         last = at
             start[tile + 1] = count
-    return start, found[:count].copy(), span[:count].copy()
+    return start, found[:count].copy(), span[:count].copy(), block[:count].copy()
 
 
-def leaps_by_part(part: np.ndarray, parts: int) -> tuple[np.ndarray, np.ndarray]:
-    """The leaps from each of so many ``parts``, of which ``part`` (l,) are those that they start in: start
-    (p + 1,), leap (l,) int32."""
-    order = np.argsort(part, kind="stable")
-    start = np.searchsorted(part[order], np.arange(parts + 1)).astype(np.int32)
-    return start, order.astype(np.int32)
+@allocating_kernel(nogil=True)
+def grouped_by_part(part, parts):
+    """The numbers of what belongs to each of so many ``parts``, where ``part`` (l,) says to which: start
+    (parts + 1,), number (l,) int32, rising within each."""
+    start, number = np.zeros(parts + 1, np.int32), np.empty(part.size, np.int32)
+    for own in part:
+        start[own + 1] += 1
+    for i in range(parts):
+        start[i + 1] += start[i]
+    last = start.copy()
+    for i in range(part.size):
+        number[last[part[i]]] = i
+        last[part[i]] += 1
+    return start, number
 
 
-def parts_in_tiles(
-    tiles: tuple[np.ndarray, np.ndarray, np.ndarray], surface: Surface, cells: np.ndarray, part: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What `parts_of_tiles` gave with one ``part`` more, in the tiles of these ``cells`` (k,)."""
-    start, parts, spans = tiles
+def parts_in_tiles(tiles: Tiles, surface: Surface, cells: np.ndarray, part: int) -> Tiles:
+    """``tiles`` with one ``part`` more, which has a place in each of these ``cells`` (k,)."""
     ix, iy = np.divmod(surface.columns(cells), surface.shape[1])
     more = ix // TILE * ((surface.shape[1] + TILE - 1) // TILE) + iy // TILE
+    bit = np.int64(1) << (TILE // BLOCK * (ix % TILE // BLOCK) + iy % TILE // BLOCK)
     rise = 0.5 * surface.resolution * np.abs(surface.gradients(cells)).sum(axis=1)
     height = surface.heights(cells)
     high = np.column_stack([height - rise, height + rise])
-    tile = np.concatenate([np.repeat(np.arange(len(start) - 1), np.diff(start)), more])
-    part_of = np.concatenate([parts, np.full(len(more), part)])
-    span = np.concatenate([spans, high])
+    count = len(tiles.start) - 1
+    tile = np.concatenate([np.repeat(np.arange(count), np.diff(tiles.start)), more])
+    part_of = np.concatenate([tiles.part, np.full(len(more), part)])
+    span, block = np.concatenate([tiles.span, high]), np.concatenate([tiles.block, bit])
     order = np.lexsort((part_of, tile))
-    tile, part_of, span = tile[order], part_of[order], span[order]
+    tile, part_of, span, block = tile[order], part_of[order], span[order], block[order]
     fresh = np.flatnonzero(np.append(True, (np.diff(tile) != 0) | (np.diff(part_of) != 0))[: len(tile)])
     if len(fresh):
         low, top = np.minimum.reduceat(span[:, 0], fresh), np.maximum.reduceat(span[:, 1], fresh)
-        span = np.column_stack([low, top])
-    start = np.searchsorted(tile[fresh], np.arange(len(start))).astype(np.int32)
-    return start, part_of[fresh].astype(np.int32), np.ascontiguousarray(span)
+        span, block = np.column_stack([low, top]), np.bitwise_or.reduceat(block, fresh)
+    start = np.searchsorted(tile[fresh], np.arange(count + 1)).astype(np.int32)
+    return Tiles(start, part_of[fresh].astype(np.int32), np.ascontiguousarray(span), block)

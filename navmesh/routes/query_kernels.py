@@ -35,17 +35,20 @@ _MORE = 32  # some more
 
 @kernel(error_model="numpy", nogil=True)
 def _mark_reached(net, doors, scratch, region):
-    """Mark in scratch.reached the regions that leaps lead to from ``region``, with it."""
-    reached, stack = scratch.reached, scratch.part_stack
+    """Mark in scratch.reached the regions that leaps lead to from ``region``, with it, and list them in
+    scratch.part_stack; returns how many."""
+    reached, listed = scratch.reached, scratch.part_stack
     mark = scratch.numbers[0]
+    reached[region] = mark
+    listed[0] = region
+    at, count = 0, 1
     if doors.anywhere >= 0:
         reached[doors.anywhere] = mark
-    reached[region] = mark
-    stack[0] = region
-    size = 1
-    while size > 0:
-        size -= 1
-        here = stack[size]
+        listed[1] = doors.anywhere
+        count = 2
+    while at < count:
+        here = listed[at]
+        at += 1
         part = here
         while True:
             own = doors.part_whole[part]
@@ -57,11 +60,12 @@ def _mark_reached(net, doors, scratch, region):
                 other = doors.region[doors.part[to]]
                 if reached[other] != mark:
                     reached[other] = mark
-                    stack[size] = other
-                    size += 1
+                    listed[count] = other
+                    count += 1
             part = doors.ring[part]
             if part == here:
                 break
+    return count
 
 
 @kernel(error_model="numpy", nogil=True)
@@ -84,12 +88,14 @@ def start_search(net, doors, scratch, sx, sy, sz, gx, gy, gz, reach, rise, step)
     status = _COMPLETE
     region = doors.region[doors.part[start_node]]
     if doors.region[doors.part[goal_node]] != region:
-        _mark_reached(net, doors, scratch, region)
+        regions = _mark_reached(net, doors, scratch, region)
         if scratch.reached[doors.region[doors.part[goal_node]]] != scratch.numbers[0]:
             status = _PARTIAL
-            goal_node, goal_cell, bx, by, near = nearest_reachable(net, doors, scratch, gx, gy, gz)
-            now = sqrt((ax - gx) * (ax - gx) + (ay - gy) * (ay - gy) + (az - gz) * (az - gz))
-            if goal_node < 0 or near > now - NEARER:
+            now = (ax - gx) * (ax - gx) + (ay - gy) * (ay - gy) + (az - gz) * (az - gz)
+            goal_node, goal_cell, bx, by, near = nearest_reachable(
+                net, doors, scratch, regions, gx, gy, gz, now
+            )
+            if goal_node < 0 or near > sqrt(now) - NEARER:
                 return _NO_PATH
     scratch.numbers[START_CELL] = start_cell
     scratch.numbers[GOAL_CELL] = goal_cell

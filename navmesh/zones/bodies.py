@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from navmesh.graph.kernel_arrays import door_rows, make_doors, net_of
-from navmesh.graph.parts import leaps_by_part, parts_in_tiles, parts_of_nodes, parts_of_tiles
+from navmesh.graph.kernel_arrays import door_rows, make_doors, net_of, tile_fields
+from navmesh.graph.parts import grouped_by_part, parts_in_tiles, parts_of_nodes, parts_of_tiles
 from navmesh.graph.portals import open_portals
 from navmesh.recent import recent
 from navmesh.zones.lists import grouped
@@ -115,12 +115,12 @@ class ZonedBody:
         """`DOORS` with these ``leaps``, which start at the nodes of the undivided graph."""
         switches = self._zones.switches
         from_part = self.part[leaps["leap_node"]]
-        part_leap_start, part_leap = leaps_by_part(from_part, len(self.region))
+        part_leap_start, part_leap = grouped_by_part(from_part, len(self.region))
         parts = {
             "part": self.part, "region": self.region, "ring": self.ring, "part_whole": self._part_whole,
             "anywhere": self._anywhere, "part_leap_start": part_leap_start, "part_leap": part_leap,
-            "tile_start": self._tiles[0], "tile_part": self._tiles[1], "tile_span": self._tiles[2],
         }  # fmt: skip
+        parts |= tile_fields(self._tiles, len(self.region))
         leaps = {name: each for name, each in leaps.items() if name != "leap_node"} | {"whole": self.whole}
         portals = self._start, self._doors, self._lens, self._block, switches.head, switches.following
         widest = float(self._zones.undivided.radii.max())

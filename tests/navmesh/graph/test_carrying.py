@@ -23,6 +23,11 @@ def built(chunks, like=None):
     return NodeGraph.build(join_chunks(chunks), obstacle_rules=None, extent=[low - 1.0, high + 1.0])
 
 
+def all_of(graph: NodeGraph, radius: float) -> tuple[np.ndarray, ...]:
+    part, tiles = parts_of(graph, radius)
+    return *portals_of(graph, radius), part, *tiles
+
+
 @pytest.mark.parametrize(
     ("kind", "size", "side"), [("city", 4, 5.0), ("hills", 120, 6.0), ("clutter", 60, 4.0)]
 )
@@ -43,12 +48,11 @@ def test_random_changes(kind, size, side, monkeypatch):
             graph = graph.update({name: change})
             there = {key: each for key, each in (there | {name: change}).items() if each is not None}
         times.clear()
-        found = [(*portals_of(graph, radius), *parts_of(graph, radius)) for radius in RADII]
+        found = [all_of(graph, radius) for radius in RADII]
         carried += not times
         fresh = built(there, chunks)
         for radius, arrays in zip(RADII, found, strict=True):
-            others = *portals_of(fresh, radius), *parts_of(fresh, radius)
-            for mine, expected in zip(arrays, others, strict=True):
+            for mine, expected in zip(arrays, all_of(fresh, radius), strict=True):
                 np.testing.assert_array_equal(mine, expected, f"radius {radius}, turn {turn}")
     assert carried >= 3
 

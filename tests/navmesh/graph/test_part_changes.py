@@ -22,9 +22,9 @@ def before_and_after():
 
 def test_tiles_far_from_a_change_are_not_looked_at_again():
     before, after = before_and_after()
-    span = parts_of(before, RADIUS)[3]
+    span = parts_of(before, RADIUS)[1].span
     span += 1000.0
-    assert (parts_of(after, RADIUS)[3] > 500.0).all(axis=1).mean() > 0.5
+    assert (parts_of(after, RADIUS)[1].span > 500.0).all(axis=1).mean() > 0.5
 
 
 def test_parts_that_are_divided_or_joined_are_looked_for_again():
@@ -45,11 +45,11 @@ def test_what_is_cut_off_is_looked_for_only_where_it_is():
     corner = after.positions[:, :2].max(axis=0) - 15.0
     part[(part == whole) & (after.positions[:, :2] > corner).all(axis=1)] = part.max() + 1
     before, after = before_and_after()
-    parts_of(before, RADIUS)[3][:] += 1000.0
-    *found, span = tiles_for(after, part, RADIUS)
-    *expected, right = parts_of_tiles(net_of(after), part, RADIUS)
-    for mine, other in zip(found, expected, strict=True):
-        np.testing.assert_array_equal(mine, other)
+    parts_of(before, RADIUS)[1].span[:] += 1000.0
+    found, expected = tiles_for(after, part, RADIUS), parts_of_tiles(net_of(after), part, RADIUS)
+    for name in ("start", "part", "block"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(expected, name))
+    span, right = found.span, expected.span
     far = span[:, 0] > 500.0
     assert 0.5 < far.mean() < 1.0
     np.testing.assert_array_equal(span[~far], right[~far])

@@ -10,7 +10,7 @@ from benchmarks.visibility import Boxes, boxes_level, gaps_to_boxes, random_boxe
 from navmesh import NodeGraph, Terrain, WalkRules
 from navmesh.graph.kernel_arrays import make_scratch, net_of
 from navmesh.graph.open_to_body import doors_of
-from navmesh.graph.reachable_places import nearest_reachable
+from navmesh.graph.reachable_places import nearest_reachable, off_disc
 from navmesh.graph.snapping import node_at, place_in
 from tests.navmesh.routes.path_references import build, scene
 from tests.navmesh.shapes import box, join, plane
@@ -41,10 +41,31 @@ def test_no_place_in_the_parts_is_nearer(seed: int) -> None:
     parts = np.unique(doors.tile_part)
     for goal in rng.uniform((-2.0, -2.0, -1.0), (16.0, 16.0, 3.0), (5, 3)):
         scratch.numbers[0] += 1
-        scratch.reached[rng.choice(parts, max(1, len(parts) // 3))] = scratch.numbers[0]
-        node, _, _, _, far = nearest_reachable(net, doors, scratch, *goal)
+        chosen = rng.choice(parts, max(1, len(parts) // 3), replace=False)
+        scratch.reached[chosen] = scratch.numbers[0]
+        scratch.part_stack[: len(chosen)] = chosen
+        node, _, _, _, far = nearest_reachable(net, doors, scratch, len(chosen), *goal, 1e300)
         nearest = over_all_cells(graph, doors, scratch, goal)
         assert far == pytest.approx(nearest, abs=1e-12) if node >= 0 else nearest == math.inf
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_how_far_what_a_disc_leaves_of_a_square_is(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    fine = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 401)] * 2), axis=-1).reshape(-1, 2)
+    covered = 0
+    for _ in range(60):
+        half, radius = rng.uniform(0.05, 0.3), rng.uniform(0.1, 0.8)
+        centre, blocker, goal = rng.uniform(-0.5, 0.5, (3, 2))
+        places = centre + half * fine
+        free = places[np.hypot(*(places - blocker).T) >= radius]
+        found = math.sqrt(off_disc(*centre, half, *blocker, radius, *goal))
+        if len(free):
+            assert found == pytest.approx(np.hypot(*(free - goal).T).min(), abs=half / 100)
+        else:
+            covered += 1
+            assert found > 1e100 or radius - np.hypot(*(places - blocker).T).max() < half / 100
+    assert covered > 2
 
 
 def brute_force(graph: NodeGraph, boxes, start, goal, radius: float) -> float:

@@ -45,7 +45,7 @@ def planned(
     """(4,) the plan of the rest of a run-up (`PLAN`), whose memory is ``run_up``; ``off``: whether the skill
     has begun."""
     farther, faster, bend = (float(each) for each in run_up[[FARTHER, FASTER, BEND]])
-    entry, mark = skill.approach(obstacle.size)
+    entry, mark = skill.approach(obstacle.size, obstacle.depth)
     if off:
         return np.array([0.0, foot_distance(state, obstacle) - mark - farther, entry, entry + faster])
     plan = plan_run_up(state, obstacle, skill, run, farther, faster, bend)

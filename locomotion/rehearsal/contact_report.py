@@ -1,4 +1,4 @@
-"""How an obstacle is cleared, tick by tick: contacts, hand holds and ground reactions."""
+"""How an obstacle is cleared, tick by tick: contacts, hands and ground reactions."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,6 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.body.hand_hold import holding
 from locomotion.body.person import CONTROL_DT, MASS, PersonIndex
 from locomotion.body.physics import restore_physics, save_physics
 from locomotion.paths.smoothing import ObstacleAhead
@@ -16,6 +15,7 @@ __all__ = ["ContactReport", "Watcher"]
 
 _STAIR = 1.0  # [m] behind the edge of what is jumped onto that only feet may touch
 _SOLES = 0.02  # [m] above the floor before it from which a contact is one with the obstacle
+_LEVEL = 0.7  # upward share of the normal of a contact with the top
 _BEHIND = 0.05  # [m] behind a wall's far edge to which a contact is one with the wall
 
 
@@ -26,8 +26,8 @@ class ContactReport:
     takeoff_error [m], speed_error [m/s]: as in `locomotion.body_events.TookOff`; NaN where there was none.
     cleared: whether the skill came to its end. touched: whether anything touched it that must not
     (`SkillKind.may_touch`): anything but feet what is jumped onto, anything but hands and forearms what is
-    vaulted. held: time that a hand held on [s]. planted:
-    where it did, as share of the thickness from the near edge. head: time that the head touched the ground
+    vaulted. held: time that a hand bore on the top [s]. planted: where it came to it, as share of the
+    thickness from the near edge. head: time that the head touched the ground
     [s]. peak: highest reaction of the ground, after a physics step [body weights].
     """
 
@@ -76,17 +76,19 @@ class Watcher:
         force = moment.efc_force[contact.efc_address[pushes][:, None] + np.arange(4)].sum()
         report.peak = max(report.peak, float(force) / (MASS * 9.81))
         bodies = model.geom_bodyid[contact.geom].max(axis=1)  # the level's geoms belong to body 0
-        report.head += CONTROL_DT * bool((bodies[pushes] == index.head).any())
-        for side in (-1.0, 1.0):
-            if holding(moment, side):
-                report.held += CONTROL_DT
-                hand = moment.mocap_pos[int(side > 0)] - obstacle.position
-                report.planted = -float(hand[:2] @ obstacle.normal[:2]) / max(obstacle.depth, 1e-9)
         kind = skill_kind(obstacle.affordance)
+        report.head += CONTROL_DT * bool((bodies[pushes] == index.head).any())
+        behind = -(contact.pos[:, :2] - obstacle.position[:2]) @ obstacle.normal[:2]
+        if kind.holds_on:
+            on_top = self._is_one_of(("hand",))[bodies] & (np.abs(contact.frame[:, 2]) > _LEVEL)
+            on_top &= pushes & (behind > 0.0) & (behind < obstacle.depth)
+            if on_top.any():
+                if report.held == 0.0:
+                    report.planted = float(behind[on_top][0]) / obstacle.depth
+                report.held += CONTROL_DT
         if kind.may_touch is not None:
             allowed = self._is_one_of(tuple(kind.may_touch))
             deep = obstacle.depth + _BEHIND if kind.obstacle.has_depth else _STAIR
-            behind = -(contact.pos[:, :2] - obstacle.position[:2]) @ obstacle.normal[:2]
             floor = obstacle.position[2] - obstacle.height + _SOLES
             with_it = (behind > -0.1) & (behind < deep) & (contact.pos[:, 2] > floor)
             report.touched |= bool((with_it & ~allowed[bodies]).any())

@@ -60,9 +60,9 @@ class Clears(Protocol):
 class ClearingSkill(Clears, Protocol):
     """A skill that takes the body over an obstacle, on top of the running controller."""
 
-    def approach(self, size: float) -> tuple[float, float]:
-        """Entry speed [m/s] for an obstacle of that height (gap: width) [m], and distance [m] from the stance
-        foot's touchdown to the edge at the start."""
+    def approach(self, size: float, depth: float = 0.0) -> tuple[float, float]:
+        """Entry speed [m/s] for an obstacle of that height (gap: width) [m] that is ``depth`` [m] thick, and
+        distance [m] from the stance foot's touchdown to the edge at the start."""
         ...
 
     @property
@@ -168,7 +168,7 @@ def plan_run_up(
 
     farther [m], faster [m/s]: changes of the skill's mark and entry speed. bend: [m] by which the path to
     the obstacle is longer than the distance at right angles to its edge."""
-    entry, mark = skill.approach(obstacle.size)
+    entry, mark = skill.approach(obstacle.size, obstacle.depth)
     entry, mark = min(max(entry + faster, run.speeds[0]), run.speeds[1]), mark + farther
     low, high = run_up_speeds(entry, run)
     if state[controller.STEPS] >= 2.0:

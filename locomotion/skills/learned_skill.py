@@ -107,8 +107,8 @@ class LearnedSkill:
         if self.over_run and memory[FIRST_STEP] > steps:
             raise LocomotionError("a person clears an obstacle with a step that is still to come")
 
-    def approach(self, size: float) -> tuple[float, float]:
+    def approach(self, size: float, depth: float = 0.0) -> tuple[float, float]:
         """(entry speed [m/s], distance [m] from the stance foot's ankle to the edge at which the skill
-        begins)."""
+        begins), the same for every ``depth``."""
         tables = self.tables(size)
         return tables.entry, tables.mark

@@ -223,7 +223,7 @@ class RunUp:
         if len(speeds):
             self.plan[PLANNED] = speeds[0]
             return None
-        entry, mark = self.skill.approach(obstacle.size)
+        entry, mark = self.skill.approach(obstacle.size, obstacle.depth)
         self.at_work = self.skill.start(obstacle, state)
         self.plan[PLANNED] = entry
         fast = float(state[controller.STEP_SPEED]) - entry - self.plan[FASTER]

@@ -17,10 +17,11 @@ the run's sensors, the swing foot and the supporting hand, both relative to the 
 counts in phase 1 only.
 
 The supporting arm aims at a point on the top (`locomotion.body.arm_reach`). Where its hand touches the top it
-is held there (`HOLD`; the body switches the joint on and off) until the centre of mass has passed it or the
-arm is stretched out, and meanwhile
-the arm pushes: its elbow aims further out than the held point is. The paper's spherical hand is held by the
-same kind of joint (4.2.1).
+stays (`HOLD`) until the centre of mass has passed it or the arm is stretched out, and meanwhile the arm
+pushes: its elbow aims further out than that point is. The palm sticks by friction only; the paper's hand is
+held by a ball joint there (4.2.1), which the body may switch on.
+
+Over a wall thicker than usual it takes off nearer to the edge (`nearer`).
 """
 
 import math
@@ -59,7 +60,7 @@ from surefoot.kernels import allocating_kernel, kernel
 __all__ = [
     "ACTIVE", "ANCHOR", "BINS", "ERROR_DISTANCE", "ERROR_SPEED", "HELD", "HOLD", "KNOTS", "LAST_STEP",
     "MEMORY_SIZE", "PARAMETERS", "PHASES", "RANK", "SENSED", "SENSORS", "SIDE", "STEPS", "TOP",
-    "parameter_slices", "start_vault", "vault_fell", "vault_tick",
+    "nearer", "parameter_slices", "start_vault", "vault_fell", "vault_tick",
 ]  # fmt: skip
 
 STEPS, PHASES, KNOTS, SENSORS, BINS = 4, 3, 5, 18, 6
@@ -103,13 +104,13 @@ _A_HAT, _LATERAL, _BETA, _ALPHA, _MARKS, _ARM, _GAINS, _M_SP, _M_AP, _ENTRY = (
 
 # --- what a vault remembers, after what `locomotion.skills.kernel` says
 TOP, DEPTH, HOLD, HELD, SIDE, REACH, PHASE, STRETCH, FLOOR = range(SHARED_MEMORY, SHARED_MEMORY + 9)
-"""Height of the top in the world [m]; thickness [m]; hand: 0 free, 1 held, 2 let go; ticks held; side of the
-supporting hand (-1 right, +1 left); how far the arm has gone over to reaching [0 to 1]; phase 0, 1, 2;
+"""Height of the top in the world [m]; thickness [m]; hand: 0 free, 1 on it, 2 let go; ticks on it; side of
+the supporting hand (-1 right, +1 left); how far the arm has gone over to reaching [0 to 1]; phase 0, 1, 2;
 distance of the point from the shoulder over the arm's length; height of the floor before the wall [m]."""
 _N = len(JOINT_NAMES)
 _ANCHOR = SHARED_MEMORY + 9
 ANCHOR = slice(_ANCHOR, _ANCHOR + 3)
-"""Where the hand is held (3,) [m]."""
+"""Where the hand came to the top (3,) [m]."""
 _LAST_ARM = ANCHOR.stop  # angles (4,) [rad] of the supporting arm that were aimed at last
 _OFFSET = _LAST_ARM + 4  # (39,) [rad] of the targets, low-passed
 _SENSED = _OFFSET + _N
@@ -122,9 +123,17 @@ _LEAD = 0.1  # servo damping per stiffness [s], as in locomotion.body.person
 _REACH_TIME, _RETURN_TIME = 0.10, 0.15  # [s] in which the arm goes over to reaching, and back
 _TOUCH = 0.006  # [m] above the top at which the hand touches it
 _STRETCHED = 0.985  # share of the arm's length at which a hand lets go that the shoulder moves away from
-_LONGEST = 60  # ticks that a hand is held at most
+_LONGEST = 60  # ticks that a hand stays at most
 _LOWEST = 0.5
 # [m] of the centre of mass above the floor; lower counts as a fall even while it passes the wall
+_USUAL_DEPTH = 0.3  # [m] of the walls that vaults are learned on, on average
+_NEARER = 0.45  # [m] nearer per metre of thickness beyond that: the wall stays under the middle of the flight
+
+
+@kernel
+def nearer(depth):
+    """By how much [m] nearer to the edge of a wall ``depth`` [m] thick a vault begins."""
+    return _NEARER * max(depth - _USUAL_DEPTH, 0.0)
 
 
 @allocating_kernel
@@ -142,7 +151,7 @@ def start_vault(p, memory, state, edge, ahead, top, height, depth):
     memory[EDGE_X], memory[EDGE_Y], memory[AHEAD_X], memory[AHEAD_Y] = edge[0], edge[1], ahead[0], ahead[1]
     memory[TOP], memory[DEPTH], memory[FLOOR] = top, depth, top - height
     memory[SIDE] = -state[layout.STANCE]  # the next stance foot takes off, on the side of the hand
-    measure_errors(p[_MARKS], memory, state)
+    measure_errors(p[_MARKS] - nearer(depth), memory, state)
 
 
 @kernel
@@ -156,7 +165,7 @@ def vault_fell(memory, state):
 
 @allocating_kernel
 def _hand(p, memory, step, phase, qpos):
-    """Let the hand touch, hold and let go."""
+    """Let the hand touch and stay."""
     ax, ay = memory[AHEAD_X], memory[AHEAD_Y]
     if memory[HOLD] == 0.0 and step == 1 and memory[REACH] > 0.0:
         hand = hand_place(qpos, memory[SIDE])
@@ -221,7 +230,7 @@ def _arm(p, memory, step, phase, qpos, ctrl):
 @allocating_kernel
 def vault_tick(p, knots, timing, difference, rate, reference, mirror, sign, memory, state, qpos, ctrl):
     """One tick of a vault, after `run_tick` and before the physics: adds to ``ctrl`` (39,), changes the
-    pace, says in ``memory`` whether the hand holds (`HOLD`) and where (`ANCHOR`).
+    pace, says in ``memory`` whether the hand is on the top (`HOLD`) and where (`ANCHOR`).
 
     p: parameters at this height. knots, timing (k,): the run's speeds [m/s] and step times [s]. difference,
     rate (n, 39): clip less run reference over a cycle that begins with the right foot's take-off step, and
@@ -234,7 +243,7 @@ def vault_tick(p, knots, timing, difference, rate, reference, mirror, sign, memo
     if step != int(memory[LAST_STEP]):
         memory[LAST_STEP] = step
         if step == 1:
-            measure_errors(p[_MARKS + 1], memory, state)
+            measure_errors(p[_MARKS + 1] - nearer(memory[DEPTH]), memory, state)
     side, phase = state[layout.STANCE], state[layout.PHASE]
     hold_course(memory, state)
     _hand(p, memory, step, phase, qpos)

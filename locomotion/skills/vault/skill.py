@@ -49,7 +49,11 @@ def load_vault_skill(path: str | os.PathLike[str] = VAULT_SKILL) -> SkillFamily:
 
 
 class Vault(LearnedSkill):
-    """Vaulting over walls as a `locomotion.skills.interface.ClearingSkill`, on top of a given run."""
+    """Vaulting over walls as a `locomotion.skills.interface.ClearingSkill`, on top of a given run.
+
+    joint: whether a ball joint holds the hand on the top, as in "Terrain Runner" (4.2.1), which can pull,
+    too; else only friction does. Can be set.
+    """
 
     affordance = "vault"
     ends: Literal["running", "walking"] = "running"
@@ -70,6 +74,7 @@ class Vault(LearnedSkill):
 
     def __init__(self, skill: SkillFamily, run: RunSkill) -> None:
         """``skill``: the learned vaults; ``run``: the run under them."""
+        self.joint = False
 
         def law(height: float) -> LawTables:
             parameters, reference = skill.at(height)
@@ -88,6 +93,11 @@ class Vault(LearnedSkill):
         start_vault(tables.parameters, memory, state, edge, ahead, top, height, depth)
         return memory
 
+    def approach(self, size: float, depth: float = 0.0) -> tuple[float, float]:
+        """The same nearer to walls that are thicker than usual."""
+        entry, mark = super().approach(size)
+        return entry, mark - vault.nearer(depth)
+
     def tick(
         self,
         obstacle: ObstacleAhead,
@@ -98,7 +108,8 @@ class Vault(LearnedSkill):
         """One control tick after `run_tick`'s and before the physics; True when the vault is over."""
         tables = self.tables(obstacle.height)
         vault_tick(tables.parameters, *tables.rest, memory, state, data.qpos, data.ctrl)
-        grip(memory, data)
+        if self.joint:
+            grip(memory, data)
         return bool(memory[vault.ACTIVE] == 0.0)
 
     def fell(self, memory: NDArray[np.float64], state: NDArray[np.float64]) -> bool:

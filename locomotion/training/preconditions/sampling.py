@@ -59,8 +59,8 @@ class WiderSkill:
     def ends(self) -> Literal["running", "walking"]:
         return self._skill.ends
 
-    def approach(self, size: float) -> tuple[float, float]:
-        return self._skill.approach(size)
+    def approach(self, size: float, depth: float = 0.0) -> tuple[float, float]:
+        return self._skill.approach(size, depth)
 
     def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
         return self._skill.start(obstacle, state)

@@ -81,7 +81,7 @@ class VaultSimulator(JumpSimulator):
 
     def place_wall(self, edge_x: float, height: float, depth: float, solid: bool = True) -> None:
         """The wall's near edge at x = ``edge_x`` [m], its top at ``height`` [m], ``depth`` [m] thick. One
-        that is not solid is seen to be touched and lets through; a hand holds on to it all the same."""
+        that is not solid is seen to be touched and lets through; a joint holds the hand on it."""
         # MuJoCo reports contacts nearer than margin + gap; there is force in those nearer than margin
         self.model.geom_margin[self.stair] = 0.0 if solid else -_NO_FORCE
         self.model.geom_gap[self.stair] = 0.0 if solid else _NO_FORCE
@@ -110,7 +110,7 @@ class VaultSimulator(JumpSimulator):
         after each tick. record: (4, 6, 19) sums of the sensors per bin and their count, added to.
         """
         height, depth = wall
-        edge = float(start.planted[0]) + tables.mark + error
+        edge = float(start.planted[0]) + tables.mark - vault.nearer(depth) + error
         self.place_wall(edge, height, depth, solid)
         self._restore(start)
         memory, state, data = self.vault_memory, self.state, self.data
@@ -131,7 +131,8 @@ class VaultSimulator(JumpSimulator):
                 start_vault(tables.parameters, memory, state, where, ahead, height, height, depth)
             if begun:
                 vault_tick(tables.parameters, *tables.rest, memory, state, data.qpos, data.ctrl)
-                grip(memory, data)
+                if not solid:
+                    grip(memory, data)
             state[c.FALLEN] = 0.0
             self._step()
             if begun:

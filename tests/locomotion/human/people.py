@@ -21,7 +21,7 @@ class Recorder:
     def __init__(self, trips=False, holds=False):
         self.distances, self.trips, self.holds = [], trips, holds
 
-    def approach(self, height):
+    def approach(self, height, depth=0.0):
         return 3.0, 0.6
 
     def start(self, obstacle, state):

@@ -32,7 +32,7 @@ class Picky:
     def __init__(self, from_):
         self.from_, self.starts = from_, 0
 
-    def approach(self, height):
+    def approach(self, height, depth=0.0):
         return ENTRY, MARK
 
     def start(self, obstacle, state):

@@ -4,10 +4,13 @@ import numpy as np
 import pytest
 
 from locomotion.body.arm_reach import ARM_START, hand_place
+from locomotion.body.hand_hold import holding
 from locomotion.body.person import CONTROL_DT, JOINT_NAMES, STANDING_HEIGHT
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import load_run_skill, run_clip
+from locomotion.human.human import Human
+from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.skills.jump.skill import run_digest
 from locomotion.skills.kernel import AHEAD_X, AHEAD_Y, EDGE_X, EDGE_Y, MIRROR, MIRROR_SIGN, mirror
 from locomotion.skills.vault import kernel as vault
@@ -207,6 +210,37 @@ def test_mirror_tables():
 
 def test_the_vault_belongs_to_the_run(run):
     assert load_vault_skill().run == run_digest(run), "the run has changed: surefoot train vault --replace"
+
+
+def test_it_takes_off_nearer_to_thicker_walls(run):
+    assert vault.nearer(0.1) == vault.nearer(0.3) == 0.0
+    shift = vault.nearer(0.6)
+    assert 0.1 < shift < 0.2  # about half of what the wall is thicker
+    skill, state = Vault(load_vault_skill(), run), controller.new_state()
+    marks = [skill.approach(0.7, depth)[1] for depth in (0.3, 0.6)]
+    assert marks[1] == pytest.approx(marks[0] - shift)
+    state[controller.STANCE] = 1.0
+    for depth, mark in zip((0.3, 0.6), marks, strict=True):  # the left foot stands 2 cm short of the mark
+        edge = np.array([mark + 0.02, 0.0, 0.7])
+        memory = skill.start(ObstacleAhead(0.0, "vault", 0.7, edge, np.array([-1.0, 0.0, 0.0]), depth), state)
+        assert memory[vault.ERROR_DISTANCE] == pytest.approx(0.02)
+
+
+@pytest.mark.parametrize("joint", [False, True])
+def test_a_joint_holds_the_hand_only_if_it_is_asked_for(run, joint):
+    human = Human(None, clearing=())
+    skill, memory = Vault(load_vault_skill(), run), fresh_memory(1, 1.0)
+    assert not skill.joint
+    skill.joint, human.data.qpos[:] = joint, standing(1.0)
+    human.data.qpos[0], memory[vault.REACH] = -0.3, 1.0
+    memory[vault.TOP] = hand_place(human.data.qpos, 1.0)[2] - 0.03
+    state = controller.new_state()
+    state[controller.STANCE], state[controller.STEPS] = 1.0, 11.0
+    state[controller.PHASE], state[controller.SPEED] = 0.5, 3.3
+    state[controller.COM] = -0.3, 0.0, 1.0
+    wall = ObstacleAhead(0.0, "vault", 0.7, np.zeros(3), np.array([-1.0, 0.0, 0.0]), 0.3)
+    skill.tick(wall, memory, state, human.data)
+    assert memory[vault.HOLD] == 1.0 and holding(human.data, 1.0) is joint
 
 
 def test_entry_and_mark_are_plausible(run):

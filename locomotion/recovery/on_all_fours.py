@@ -81,7 +81,7 @@ class OnAllFours:
 
     def leave(self) -> None:
         """End its support of the body."""
-        self.memory[MODE] = AWAY
+        self.memory[MODE], self.gentle = AWAY, 0.0
 
     def fall(self, data: mujoco.MjData) -> None:
         """The body has fallen, in whatever position."""
@@ -96,9 +96,11 @@ class OnAllFours:
         crouch(self._model, data, self._parts, lookup, self.memory, place, yaw)
 
     def look(self, ground: Ground | None, place: NDArray[np.float64], follower: PathFollower | None) -> None:
-        """Check whether it can stand up at ``place`` (3,), and walk on with ``follower``."""
+        """Check whether it can stand up at ``place`` (3,), and walk on with ``follower``. Once it can, only
+        its way counts: it sways as it stands up."""
         path, arc = (None, 0.0) if follower is None else (follower.path, follower.arc)
-        self.gentle = float(_gentle_ahead(ground, place, path, arc))
+        here = self.gentle > 0.0 or _gentle_here(ground, place)
+        self.gentle = float(here and _gentle_ahead(ground, place, path, arc))
 
     def steer(
         self, follower: PathFollower | None, com: NDArray[np.float64], tick: int, command: NDArray
@@ -164,6 +166,13 @@ def too_steep_around(ground: Ground | None, place: NDArray[np.float64]) -> bool:
     around = np.linspace(0.0, 2.0 * math.pi, 8, endpoint=False)
     ring = place + _AROUND * np.stack([np.cos(around), np.sin(around), 0.0 * around], axis=1)
     return steeper(ground.lookup, np.vstack([place, ring]), _TOO_STEEP)
+
+
+def _gentle_here(ground: Ground | None, place: NDArray[np.float64]) -> bool:
+    """Whether a person can begin to stand up at ``place`` (3,)."""
+    if ground is None or not ground.steep:
+        return True
+    return not (steeper(ground.lookup, place[None], _GENTLE) or too_steep_around(ground, place))
 
 
 def _gentle_ahead(

@@ -76,7 +76,7 @@ _WAIST, _CHEST, _NECK = WAIST_CHEST_NECK
 _RADIUS = np.array([0.028, 0.028, 0.024, 0.024])  # [m] of the limbs' ends
 _SHOULDER_OUT, _TRUNK = 0.17, 0.485  # [m] from the middle; from the hips to the shoulders
 _BELOW = 1.2  # share of the spine's bend by which the pelvis leans less than the trunk as a whole
-_UPHILL = 0.25  # slope that counts as much as the way in where to face
+_UPHILL = 0.12  # slope that counts as much as the way in where to face
 _COMING = 0.3  # [m] ahead where it looks how the ground lies, too
 _LOOKS = 5.0  # ticks after which it does so again: less than 1 cm later
 _TURN_RATE = 0.7  # [rad/s]
@@ -88,6 +88,12 @@ _AIM_AHEAD, _ACROSS = 0.05, 0.75  # [s] by which swings lead; share of a swing a
 _UNLOAD = 0.05  # [s] before it is lifted in which a limb is unloaded
 _LOST = 0.015  # [s] off the ground after which a limb counts as in the air
 _FEEL, _FEEL_MOST = 0.4, 0.12  # [m/s], [m] at which and how far such a limb reaches down
+_TURNS = 0.05  # [rad/s] from which on its limbs step even where it does not go on
+_GOES_ON, _TURNS_FIRST = 0.3, 0.8  # [rad] off where it is to face, up to which it goes on, and does at all
+_FALLS = 0.18  # [s] in which a body tips over as far as its speed takes it
+_OVER, _OVER_TURNING, _TIPS = 0.08, 0.05, 0.2
+# [m] beside the line between hand and foot: they bear it for a swing; the same while it turns; it tips over
+_SHIFT, _WAITS = 0.4, 0.4  # [m/s] at which it comes over that line; [s] for which it tries
 _STRAY = 0.08  # [m] that the centre of mass may be from where it is to be
 
 
@@ -144,6 +150,27 @@ def _settle(ground, k, z, out):
     out[2] = (h if h == h and abs(h - z) < 1.2 else z) + _RADIUS[k] / max(n2, 0.4)
 
 
+@kernel
+def _comes_over(memory, hand, foot, vx, vy):
+    """Whether the body is over the line between the ``hand`` and the ``foot`` (3,) that are to bear it for a
+    swing, so that it does not tip over meanwhile, or must not wait any longer. Else moves its wanted place
+    there. (vx, vy) [m/s]: of its way."""
+    com, velocity, half = memory[SEEN_COM], memory[SEEN_VELOCITY], 0.5 * memory[STANCE.start + _SWING]
+    nx, ny = foot[1] - hand[1], hand[0] - foot[0]
+    length = max(math.hypot(nx, ny), 0.1)
+    nx, ny = nx / length, ny / length
+    x = com[0] + half * vx + _FALLS * (velocity[0] - vx) - hand[0]
+    y = com[1] + half * vy + _FALLS * (velocity[1] - vy) - hand[1]
+    off = nx * x + ny * y
+    over = abs(off) < (_OVER_TURNING if abs(memory[TURNING]) > _TURNS else _OVER)
+    if over or abs(off) > _TIPS or memory[CLOCK] > _WAITS:
+        return True
+    move = clamp(off, -_SHIFT * CONTROL_DT, _SHIFT * CONTROL_DT)
+    memory[CENTRE.start] -= move * nx
+    memory[CENTRE.start + 1] -= move * ny
+    return False
+
+
 @allocating_kernel
 def _gait(ground, memory, command, gradient, slope):
     """Which limbs are in the air, and where they are to land."""
@@ -170,9 +197,11 @@ def _gait(ground, memory, command, gradient, slope):
         for k in range(first, 4):
             _home(ground, p, k, memory[CENTRE.start], memory[CENTRE.start + 1], low, facing, slope, home)
             late = late or math.hypot(home[0] - seen[k, 0], home[1] - seen[k, 1]) > 0.12
-        late = late and memory[RISEN] > 0.6
+        late = (late or abs(memory[TURNING]) > _TURNS) and memory[RISEN] > 0.6
         a = int(1.0 - memory[PAIR])
-        if late and memory[CLOCK] >= p[_PAUSE] - _UNLOAD:
+        balances = late and first == 0 and memory[RISEN] >= 1.0
+        over = not balances or _comes_over(memory, seen[1 - a], seen[2 + a], vx, vy)
+        if late and over and memory[CLOCK] >= p[_PAUSE] - _UNLOAD:
             lifting = a
         if lifting >= 0 and memory[LOADS.start + (a if first == 0 else 3 - a)] < 0.3:
             memory[PHASE], memory[CLOCK], memory[PAIR] = SWINGING, 0.0, a
@@ -287,6 +316,9 @@ def scramble_tick(ground, memory, command, qpos, qvel, ctrl):
         memory[FACING] = wrap(memory[FACING] + memory[TURNING] * CONTROL_DT)
     ch, sh = math.cos(memory[FACING]), math.sin(memory[FACING])
     slope, across = gradient[0] * ch + gradient[1] * sh, -gradient[0] * sh + gradient[1] * ch
+    # it turns before it goes on
+    command = command.copy()
+    command[SPEED_ASKED] *= clamp((_TURNS_FIRST - abs(off)) / (_TURNS_FIRST - _GOES_ON), 0.0, 1.0)
     vx, vy = (
         command[SPEED_ASKED] * math.cos(command[HEADING_ASKED]),
         command[SPEED_ASKED] * math.sin(command[HEADING_ASKED]),

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from locomotion import Human
+from locomotion import Ground, Human
 from locomotion.body.arm_reach import HAND_RADIUS
 from locomotion.body_events import Fell
 from tests.locomotion.recovery.falling import go_on, push_over
@@ -38,3 +38,17 @@ def test_a_saved_person_gets_up_in_the_same_way():
         human.tick()
         twin.tick()
     assert twin.state_hash() == human.state_hash()
+
+
+def test_it_begins_to_stand_up_only_where_the_ground_around_it_is_gentle_as_well_as_its_way():
+    corners = [[x, y, 0.8 * max(x, 0.0)] for x in (-20.0, 0.0, 20.0) for y in (-20.0, 20.0)]
+    faces = [[k, k + 2, k + 3] for k in (0, 2)] + [[k, k + 3, k + 1] for k in (0, 2)]
+    ground = Ground.from_arrays(corners, faces, max_slope=math.atan(0.8))
+    human = Human(ground, clearing=(), gets_up=True)
+    human.reset((-4.0, 0.0, 0.0), math.pi)
+    human.follow([[-4.0, 0.0, 0.0], [-14.0, 0.0, 0.0]], 1.2)
+    gentle = []
+    for x in (4.0, 1.0, -1.0, -4.0, -1.0):  # there is no going back once it has begun
+        human.fours.look(ground, np.array([x, 0.0, 0.8 * max(x, 0.0)]), human.follower)
+        gentle.append(human.fours.gentle)
+    assert gentle == [0.0, 0.0, 0.0, 1.0, 1.0]

@@ -2,10 +2,12 @@
 
 import math
 
+import mujoco
 import numpy as np
 import pytest
 
 from locomotion import Human
+from locomotion.body.person import STEPS_PER_TICK
 from locomotion.body_events import Fell
 from locomotion.recovery.scrambling import lie_of, steeper
 from tests.locomotion.recovery.falling import go_on, plane
@@ -25,6 +27,25 @@ def test_scrambles_into_every_direction_over_a_steep_plane(slope):
         kept += not any(isinstance(event, Fell) for event in human.events) and human.arc_length > 1.0
         assert abs(human.lateral_error) < 0.3
     assert kept >= 4
+
+
+@pytest.mark.parametrize(("slope", "speed"), [(0.001, 0.0), (0.001, 0.15), (0.2, 0.15)])
+def test_turns_on_hands_and_feet_without_falling(slope, speed):
+    human, rng = Human(plane(slope), clearing=(), gets_up=True), np.random.default_rng(3)
+    fours, data, falls, turned = human.fours, human.data, 0, 0.0
+    fours.crouch(human.simulation.lookup, data, np.zeros(3), 0.0)
+    for _ in range(20):
+        command, before = np.array([rng.uniform(-math.pi, math.pi), speed, 0.0, 0.0]), fours.facing
+        for _ in range(600):
+            fours.tick(human.simulation.lookup, command, data, stand=False)
+            mujoco.mj_step(fours.model, data, STEPS_PER_TICK)
+            fours.observe(human.simulation.lookup, data, human.observed)
+            if fours.fallen:
+                fours.crouch(human.simulation.lookup, data, np.zeros(3), command[0])
+                falls += 1
+        turned += abs(math.remainder(fours.facing - before, 2.0 * math.pi))
+    assert falls <= 1
+    assert turned > 8.0
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.4, 0.8])

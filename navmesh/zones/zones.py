@@ -130,6 +130,18 @@ def zoned_graph(
     `divide`."""
     if not outlines:
         return graph
+    zoned = _all_open(graph, outlines, may_be_nowhere)
+    zones_of(zoned).rehearse(zoned)
+    return _blocked(zoned, blocked)
+
+
+def rebuilt(graph: "NodeGraph", outlines: dict[str, np.ndarray], blocked: dict[str, bool]) -> "NodeGraph":
+    """A zoned graph of its own again, after an update, from what makes it up. A game may be waiting, so
+    nothing is rehearsed."""
+    return _blocked(_all_open(graph, outlines, set(outlines)), blocked) if outlines else graph
+
+
+def _all_open(graph: "NodeGraph", outlines: dict[str, np.ndarray], may_be_nowhere: set[str]) -> "NodeGraph":
     divided = divide(graph, outlines, may_be_nowhere)
     pieces = len(divided.switches["row_cell"])
     count = len(graph) + pieces
@@ -145,15 +157,12 @@ def zoned_graph(
         "all_label": label, "all_radius": radii, "all_position": positions,
     }  # fmt: skip
     zones = Zones(outlines, graph, divided, arrays)
-    zoned = replace(
+    return replace(
         graph, surface=divided.surface, positions=positions, radii=radii, label=label, edge_start=start,
         node_cell=np.concatenate([graph.node_cell, np.zeros(pieces, np.int32)]), zone_state=zones, cache={},
     )  # fmt: skip
-    zones.rehearse(zoned)
-    zones.turn(zoned, [name for name in outlines if blocked.get(name)], True)
+
+
+def _blocked(zoned: "NodeGraph", blocked: dict[str, bool]) -> "NodeGraph":
+    zones_of(zoned).turn(zoned, [name for name, is_so in blocked.items() if is_so], True)
     return zoned
-
-
-def rebuilt(graph: "NodeGraph", outlines: dict[str, np.ndarray], blocked: dict[str, bool]) -> "NodeGraph":
-    """A zoned graph of its own again, from what makes it up."""
-    return zoned_graph(graph, outlines, set(outlines), blocked)

@@ -45,6 +45,7 @@ def test_the_same_seed_does_the_same(people):
     seen = []
     for _ in range(2):
         people.begin(STAGE, 5)
+        people.observe()  # what is decided belongs to the sides that were observed last
         for _ in range(4):
             people.step(np.full((2, ACTIONS), 0.1))
         seen.append(people.observe())

@@ -4,8 +4,7 @@ Phases, as in "Terrain Runner" (Liu and others, 2012), section 3:
 
     `TAKE_OFF`  the run goes on until no foot touches the ground and the centre of mass is past the edge
     `FALL`      legs are aimed at the ground below, by the time that is left to the touchdown
-    `ROLL`      from the touchdown of a foot, on legs that give way (`giving_way`),
-                until the feet carry the body again behind the roll
+    `ROLL`      from the touchdown of a foot until the feet carry the body again behind the roll
     `RISE`      the legs straighten while the momentum carries the body over its feet
 
 The reference pose is not played against time but against how far the body is: in the fall against the time
@@ -24,21 +23,11 @@ import numpy as np
 
 from locomotion.body.person import CONTROL_DT, JOINT_NAMES
 from locomotion.gaits.run import layout
-from locomotion.skills.drop_roll.giving_way import (
-    END_HEIGHT,
-    GIVE,
-    GIVING_SIZE,
-    HOLDS,
-    REACH,
-    fold_legs,
-    give_way,
-    sole_force,
-)
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "ACTIONS", "ACTIVE", "AHEAD_X", "AHEAD_Y", "ANGLE",
-    "BINS", "EDGE_X", "EDGE_Y", "ENDED", "FALL", "GIVING", "KNOTS", "LOW", "MEMORY_SIZE", "MOST_OFF",
+    "BINS", "EDGE_X", "EDGE_Y", "ENDED", "FALL", "KNOTS", "LOW", "MEMORY_SIZE", "MOST_OFF",
     "PARAMETERS", "PHASE", "PHASE_TICKS", "RANK", "RATE", "RISE", "ROLL", "SENSED", "SENSORS", "SHARE",
     "SHARE_RATE", "SIDE", "TAKE_OFF", "drop_roll_tick", "parameter_slices",
     "start_drop_roll",
@@ -73,7 +62,6 @@ PARAMETERS: dict[str, int] = {
     "mark": 2,  # distance of the stance foot to the edge at the start [m]; entry speed [m/s]
     "m_sp": 3 * RANK * _N_SENSORS,  # (3, 3, 12) for fall, roll, rise
     "m_ap": _N_ACTIONS * RANK,  # (9, 3)
-    "give": GIVE,  # see `locomotion.skills.drop_roll.giving_way`
 }
 """Blocks of a parameter vector, in order, with their lengths."""
 
@@ -88,7 +76,7 @@ def parameter_slices() -> dict[str, slice]:
 
 
 _SP = parameter_slices()
-_POSE, _LANDING, _TIMING, _RISE, _MARK, _M_SP, _M_AP, _GIVE = (_SP[k].start for k in PARAMETERS)
+_POSE, _LANDING, _TIMING, _RISE, _MARK, _M_SP, _M_AP = (_SP[k].start for k in PARAMETERS)
 
 # --- what a roll remembers
 ACTIVE, PHASE, ANGLE, RATE, SHARE, SHARE_RATE, SIDE, LOW, PHASE_TICKS, ENDED = range(10)
@@ -100,9 +88,8 @@ EDGE_X, EDGE_Y, AHEAD_X, AHEAD_Y = range(10, 14)
 _FROM = 14  # (39,) targets [rad] of the run with which it began to fall
 _N = len(JOINT_NAMES)
 SENSED = slice(_FROM + _N, _FROM + _N + _N_SENSORS)
-GIVING = slice(SENSED.stop, SENSED.stop + GIVING_SIZE)
-MEMORY_SIZE = GIVING.stop
-_SENSED, _GIVING = SENSED.start, GIVING.start
+MEMORY_SIZE = _FROM + _N + _N_SENSORS
+_SENSED = SENSED.start
 
 _HIP, _LEFT_HIP = (JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left"))
 _SHOULDER, _LEFT_SHOULDER = (JOINT_NAMES.index(f"{side}_shoulder_flexion") for side in ("right", "left"))
@@ -192,7 +179,6 @@ def _go_on(p, memory, state):
         low = min(state[layout.RIGHT_FOOT + 2], state[layout.LEFT_FOOT + 2]) - memory[LOW]
         if contact > _TOUCH and low < 0.25:
             memory[PHASE], memory[PHASE_TICKS] = ROLL, 0.0
-            memory[_GIVING + HOLDS] = 1.0 if p[_GIVE + END_HEIGHT] > 0.0 else 0.0
         left = _time_to_touchdown(memory, state)
         memory[SHARE] = max(old, _FALL_SHARE * min(max(1.0 - (left - 0.02) / (_REACH + 0.05), 0.0), 1.0))
     else:
@@ -231,19 +217,6 @@ def _aim_legs(p, memory, state, pose):
         pose[hip] += share * (flexion - pose[hip])
         pose[hip + 3] += share * (knee - pose[hip + 3])
         pose[hip + 4] += share * (level - pose[hip + 4])
-
-
-@kernel
-def _land(give, memory, state, qpos, qvel, ctrl):
-    """Legs that give way, in the fall and in the roll. give (GIVE,): their parameters."""
-    giving = memory[_GIVING : _GIVING + GIVING_SIZE]
-    if memory[PHASE] == FALL:
-        if give[END_HEIGHT] > 0.0 and _time_to_touchdown(memory, state) < give[REACH]:
-            fold_legs(give, qpos, ctrl)
-    elif giving[HOLDS] > 0.0:
-        ahead_x, ahead_y, low = memory[AHEAD_X], memory[AHEAD_Y], memory[LOW]
-        force = sole_force(give, state, ahead_x, ahead_y, low, memory[RATE])
-        give_way(give, giving, memory[PHASE_TICKS], memory[ANGLE], force, state, qpos, qvel, ctrl)
 
 
 @allocating_kernel
@@ -313,6 +286,4 @@ def drop_roll_tick(p, clip, reference, mirror, sign, memory, state, qpos, qvel, 
             ctrl[mirror[j]] = sign[j] * pose[j]
     for j in range(_N):
         ctrl[j] += keep * (memory[_FROM + j] - ctrl[j])
-    _land(p[_GIVE : _GIVE + GIVE], memory, state, qpos, qvel, ctrl)
-    for j in range(_N):
         state[layout.LAST_TARGET.start + j] = ctrl[j]

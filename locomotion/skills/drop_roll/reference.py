@@ -8,61 +8,11 @@ from locomotion.skills.drop_roll import kernel as dr
 from locomotion.skills.kernel import mirror
 from locomotion.skills.learned_skill import LawTables
 
-__all__ = ["giving_leg", "point_of_sole", "sole_force", "wanted_pose"]
-
-_STEP = 1e-6  # [rad] of a numerical derivative
-
-
-def sole_force(
-    give: np.ndarray, height: float, speed: float, feet: np.ndarray, rate: float
-) -> tuple[float, float]:
-    """Force on both soles together, along the approach and upwards [N], that slows a landing down.
-
-    height, speed: of the centre of mass above the ground [m] and upwards [m/s]. feet (2,): where the soles
-    bear, ahead of the centre of mass and above it [m]. rate: of turning forward [rad/s].
-    """
-    _, _, end_height, end_speed, turning, gain, *_ = give
-    up = 9.81
-    if speed < end_speed:
-        up += (speed**2 - end_speed**2) / (2.0 * max(height - end_height, 0.04))
-    upward = 65.0 * min(max(up, 0.0), 9.0 * 9.81)
-    ahead, above = feet
-    # the moment forward of a force (along, upward) at the feet is above * along - ahead * upward
-    along = (gain * (turning - rate) + ahead * upward) / min(above, -0.2)
-    return float(np.clip(along, -0.6 * upward, 0.6 * upward)), upward
-
-
-def point_of_sole(pitch: float, joints: np.ndarray, ball: float) -> np.ndarray:
-    """Where a sole bears from the hip on, ahead and up (2,) [m]: pitch of the pelvis, hip, knee, ankle."""
-    hip, knee, ankle = joints
-    thigh = hip - pitch
-    shank = thigh - knee
-    foot = shank + ankle
-    down = [np.array([np.sin(a), -np.cos(a)]) for a in (thigh, shank, foot)]
-    return 0.412 * down[0] + 0.424 * down[1] + 0.064 * down[2] + ball * np.array([np.cos(foot), np.sin(foot)])
-
-
-def giving_leg(
-    pitch: float,
-    joints: np.ndarray,
-    rates: np.ndarray,
-    last: np.ndarray | None,
-    force: np.ndarray,
-    ball: float,
-) -> np.ndarray:
-    """Targets (3,) [rad] of hip, knee and ankle with which a sole bears ``force`` (2,) [N]. rates, last:
-    of the joints now and a tick ago [rad/s]."""
-    ends = [[point_of_sole(pitch, joints + s * move, ball) for s in (1, -1)] for move in _STEP * np.eye(3)]
-    jacobian = np.column_stack([(plus - minus) / (2.0 * _STEP) for plus, minus in ends])
-    torques = np.clip(-jacobian.T @ force, [-350.0, -350.0, -300.0], [350.0, 350.0, 300.0])
-    if last is not None:
-        rates = rates + 0.4 * CONTROL_DT * np.clip((rates - last) / CONTROL_DT, -400.0, 400.0)
-    return joints + (0.5 * CONTROL_DT + 0.1) * rates + torques / [600.0, 500.0, 400.0]
+__all__ = ["wanted_pose"]
 
 
 def wanted_pose(tables: LawTables, memory: np.ndarray, state: np.ndarray, before: np.ndarray) -> np.ndarray:
-    """PD targets (39,) [rad] of a tick on legs that hold their pose, from what ``memory`` and ``state`` hold
-    after it.
+    """PD targets (39,) [rad] of a tick, from what ``memory`` and ``state`` hold after it.
 
     ``before`` (39,): the targets with which the fall began.
     """

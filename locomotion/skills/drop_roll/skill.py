@@ -14,14 +14,12 @@ from locomotion.gaits.run import controller
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.saved_arrays import COUNT, FLAG, SIDE, Slots
 from locomotion.skills.drop_roll import kernel as drop_roll
-from locomotion.skills.drop_roll.giving_way import HOLDS
 from locomotion.skills.drop_roll.kernel import drop_roll_tick, start_drop_roll
 from locomotion.skills.kernel import MIRROR, MIRROR_SIGN
 from locomotion.skills.learned_skill import LawTables, LearnedSkill
 from locomotion.skills.skill_file import SkillFamily, load_family
 
 __all__ = [
-    "DROP_ROLL_BY_POSE",
     "DROP_ROLL_CLIP",
     "DROP_ROLL_SKILL",
     "KIND",
@@ -33,8 +31,6 @@ __all__ = [
 
 DROP_ROLL_CLIP = CLIPS / "drop_roll.yaml"
 DROP_ROLL_SKILL = SKILLS / "drop_roll.npz"
-DROP_ROLL_BY_POSE = SKILLS / "drop_roll_by_pose.npz"
-"""A roll whose legs hold their pose as they land: the paper's law."""
 KIND = "drop-roll skill"
 _SAMPLES = 201
 _MARK = drop_roll.parameter_slices()["mark"].start
@@ -80,7 +76,6 @@ class DropRoll(LearnedSkill):
             (drop_roll.SIDE, SIDE),
             (drop_roll.PHASE_TICKS, COUNT),
             (drop_roll.ENDED, FLAG),
-            (drop_roll.GIVING.start + HOLDS, FLAG),
         ],
         whole=(drop_roll.ACTIVE, drop_roll.PHASE, drop_roll.ENDED),
     )

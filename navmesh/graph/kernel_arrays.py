@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numba import float64, int32, int64
 
-from navmesh.graph.parts import Tiles, grouped_by_part
+from navmesh.graph.parts import Tiles
+from navmesh.grouping import by_group
 from navmesh.routes.graph_search import LABELS
 from navmesh.surface.net import NODE
 from surefoot.kernels.bundles import Bundle, BundleType, aligned, rows
@@ -171,7 +172,7 @@ def door_rows(target: np.ndarray, portal: np.ndarray, portal_cell: np.ndarray) -
 
 def tile_fields(tiles: Tiles, parts: int) -> dict[str, np.ndarray]:
     """The fields of `DOORS` for ``tiles`` with so many ``parts``."""
-    start, row = grouped_by_part(tiles.part, parts)
+    start, row = by_group(tiles.part, parts)
     return {
         "tile_start": tiles.start, "tile_part": tiles.part, "tile_span": tiles.span,
         "tile_block": tiles.block, "part_row_start": start, "part_row": row,

@@ -10,8 +10,9 @@ import numpy as np
 from navmesh.errors import NavmeshError
 from navmesh.graph.kernel_arrays import make_doors, tile_fields
 from navmesh.graph.part_changes import tiles_for
-from navmesh.graph.parts import Tiles, grouped_by_part, parts_of_nodes
+from navmesh.graph.parts import Tiles, parts_of_nodes
 from navmesh.graph.portal_changes import portals_for
+from navmesh.grouping import by_group
 from navmesh.obstacles.kinds import affordances
 from navmesh.recent import recent
 from navmesh.zones.bodies import zoned_body
@@ -181,7 +182,7 @@ def _doors(
         return zoned_body(graph, radius).doors(leaps, costs, weighted)
     part, tiles = parts_of(graph, radius)
     every = np.arange(int(part.max(initial=-1)) + 1, dtype=np.int32)
-    part_leap_start, part_leap = grouped_by_part(part[leaps.pop("leap_node")], len(every))
+    part_leap_start, part_leap = by_group(part[leaps.pop("leap_node")], len(every))
     leaps["whole"] = np.arange(count, dtype=np.int32)
     parts = {
         "part": part,

@@ -12,8 +12,7 @@ from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel
 
 __all__ = [
-    "BLOCK", "TILE", "KeptTiles", "Tiles",
-    "grouped_by_part", "parts_in_tiles", "parts_of_nodes", "parts_of_tiles",
+    "BLOCK", "TILE", "KeptTiles", "Tiles", "parts_in_tiles", "parts_of_nodes", "parts_of_tiles",
 ]  # fmt: skip
 
 TILE = 16
@@ -135,22 +134,6 @@ def _parts_of_tiles(net, part, radius, kept, known):
                         last = at
             start[tile + 1] = count
     return start, found[:count].copy(), span[:count].copy(), block[:count].copy()
-
-
-@allocating_kernel(nogil=True)
-def grouped_by_part(part, parts):
-    """The numbers of what belongs to each of so many ``parts``, where ``part`` (l,) says to which: start
-    (parts + 1,), number (l,) int32, rising within each."""
-    start, number = np.zeros(parts + 1, np.int32), np.empty(part.size, np.int32)
-    for own in part:
-        start[own + 1] += 1
-    for i in range(parts):
-        start[i + 1] += start[i]
-    last = start.copy()
-    for i in range(part.size):
-        number[last[part[i]]] = i
-        last[part[i]] += 1
-    return start, number
 
 
 def parts_in_tiles(tiles: Tiles, surface: Surface, cells: np.ndarray, part: int) -> Tiles:

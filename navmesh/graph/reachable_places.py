@@ -235,22 +235,15 @@ def _search(net, doors, scratch, regions, rows, x, y, z, best, node, cell, bx, b
 
 
 @kernel(error_model="numpy")
-def nearest_reachable(net, doors, scratch, regions, x, y, z, bound):
+def nearest_reachable(net, doors, scratch, regions, rows, x, y, z, bound):
     """The place nearest to (x, y, z) in a straight line, less than ``bound`` away (squared), among those in
     the first ``regions`` of scratch.part_stack, which scratch.reached marks: of the places nearest to it in
-    each cell (`place_in`), the nearest; of equally near ones always the same.
+    each cell (`place_in`), the nearest; of equally near ones always the same. ``rows``: of the tiles, as many
+    as these regions have.
 
     The nearest centre of a cell says which cells are worth a closer look. Returns (node, cell, x, y, distance
     [m]); node -1 where there is none.
     """
-    rows = 0
-    for i in range(regions):
-        part = np.int64(scratch.part_stack[i])
-        while True:
-            rows += doors.part_row_start[part + 1] - doors.part_row_start[part]
-            part = np.int64(doors.ring[part])
-            if part == scratch.part_stack[i]:
-                break
     best, node, cell, bx, by = _search(
         net, doors, scratch, regions, rows, x, y, z, bound, -1, -1, x, y, False
     )

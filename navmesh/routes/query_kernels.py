@@ -36,12 +36,12 @@ _MORE = 32  # some more
 @kernel(error_model="numpy", nogil=True)
 def _mark_reached(net, doors, scratch, region):
     """Mark in scratch.reached the regions that leaps lead to from ``region``, with it, and list them in
-    scratch.part_stack; returns how many."""
+    scratch.part_stack; returns how many, and how many rows of the tiles they have."""
     reached, listed = scratch.reached, scratch.part_stack
     mark = scratch.numbers[0]
     reached[region] = mark
     listed[0] = region
-    at, count = 0, 1
+    at, count, rows = 0, 1, 0
     if doors.anywhere >= 0:
         reached[doors.anywhere] = mark
         listed[1] = doors.anywhere
@@ -51,6 +51,7 @@ def _mark_reached(net, doors, scratch, region):
         at += 1
         part = here
         while True:
+            rows += doors.part_row_start[part + 1] - doors.part_row_start[part]
             own = doors.part_whole[part]
             for i in range(doors.part_leap_start[own], doors.part_leap_start[own + 1]):
                 leap = doors.part_leap[i]
@@ -65,7 +66,7 @@ def _mark_reached(net, doors, scratch, region):
             part = doors.ring[part]
             if part == here:
                 break
-    return count
+    return count, rows
 
 
 @kernel(error_model="numpy", nogil=True)
@@ -88,12 +89,12 @@ def start_search(net, doors, scratch, sx, sy, sz, gx, gy, gz, reach, rise, step)
     status = _COMPLETE
     region = doors.region[doors.part[start_node]]
     if doors.region[doors.part[goal_node]] != region:
-        regions = _mark_reached(net, doors, scratch, region)
+        regions, rows = _mark_reached(net, doors, scratch, region)
         if scratch.reached[doors.region[doors.part[goal_node]]] != scratch.numbers[0]:
             status = _PARTIAL
             now = (ax - gx) * (ax - gx) + (ay - gy) * (ay - gy) + (az - gz) * (az - gz)
             goal_node, goal_cell, bx, by, near = nearest_reachable(
-                net, doors, scratch, regions, gx, gy, gz, now
+                net, doors, scratch, regions, rows, gx, gy, gz, now
             )
             if goal_node < 0 or near > sqrt(now) - NEARER:
                 return _NO_PATH

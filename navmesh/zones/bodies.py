@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from navmesh.graph.kernel_arrays import door_rows, make_doors, net_of, tile_fields
-from navmesh.graph.parts import grouped_by_part, parts_in_tiles, parts_of_nodes, parts_of_tiles
+from navmesh.graph.parts import parts_in_tiles, parts_of_nodes, parts_of_tiles
 from navmesh.graph.portals import open_portals
+from navmesh.grouping import by_group, grouped
 from navmesh.recent import recent
-from navmesh.zones.lists import grouped
 from navmesh.zones.memo import nothing_kept
 from navmesh.zones.settling import count_reached, join_regions, settle_doors
 from navmesh.zones.zones import Zones, zones_of
@@ -115,7 +115,7 @@ class ZonedBody:
         """`DOORS` with these ``leaps``, which start at the nodes of the undivided graph."""
         switches = self._zones.switches
         from_part = self.part[leaps["leap_node"]]
-        part_leap_start, part_leap = grouped_by_part(from_part, len(self.region))
+        part_leap_start, part_leap = by_group(from_part, len(self.region))
         parts = {
             "part": self.part, "region": self.region, "ring": self.ring, "part_whole": self._part_whole,
             "anywhere": self._anywhere, "part_leap_start": part_leap_start, "part_leap": part_leap,

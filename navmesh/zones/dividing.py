@@ -8,12 +8,13 @@ from scipy.spatial import KDTree
 
 from navmesh.errors import NavmeshError
 from navmesh.graph.nodes import grain_of
+from navmesh.grouping import grouped
 from navmesh.surface.storeys import linked
 from navmesh.surface.surface import Surface
 from navmesh.zones.distances import segments_to_outline
 from navmesh.zones.kept_pieces import room_for_states
 from navmesh.zones.leaps import links_near
-from navmesh.zones.lists import grouped, lists_with, sides_of
+from navmesh.zones.lists import lists_with, sides_of
 from navmesh.zones.outlines import Concerned, concerned_by
 from surefoot.kernels import allocating_kernel
 

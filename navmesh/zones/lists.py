@@ -1,4 +1,4 @@
-"""What the cells near zones know of them: the lists of blockers with outlines in them, and groups of them."""
+"""What the cells near zones know of them: the lists of blockers with outlines in them."""
 
 from typing import NamedTuple
 
@@ -7,7 +7,7 @@ import numpy as np
 from navmesh.surface.surface import Surface
 from surefoot.kernels import allocating_kernel
 
-__all__ = ["Lists", "grouped", "lists_with", "sides_of"]
+__all__ = ["Lists", "lists_with", "sides_of"]
 
 
 class Lists(NamedTuple):
@@ -23,13 +23,6 @@ class Lists(NamedTuple):
     """(s,) int32: the rows of ``blocker`` that are sides of outlines."""
     side: np.ndarray
     """(s,) int32: which sides, counted over all zones."""
-
-
-def grouped(group: np.ndarray, count: int, *values: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Start (count + 1,) int32 of each group, and the ``values`` in the order of the groups."""
-    order = np.argsort(group, kind="stable")
-    start = np.searchsorted(group[order], np.arange(count + 1)).astype(np.int32)
-    return start, *(np.ascontiguousarray(each[order]) for each in values)
 
 
 def sides_of(outlines: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:

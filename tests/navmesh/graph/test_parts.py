@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from navmesh.graph.open_to_body import parts_of, portals_of
-from navmesh.graph.parts import BLOCK, TILE, Tiles, grouped_by_part, parts_in_tiles
+from navmesh.graph.parts import BLOCK, TILE, Tiles, parts_in_tiles
 from tests.navmesh.shapes import plane
 from tests.navmesh.surface.levels import build, random_level
 
@@ -26,11 +26,6 @@ def test_nodes_of_a_part_can_be_walked_to_from_each_other(seed, radius):
     assert len(set(part.tolist())) == networkx.number_weakly_connected_components(walks)
     _, first = np.unique(part, return_index=True)
     assert (np.diff(first) > 0).all()  # numbered by their first nodes
-
-
-def test_what_belongs_to_parts_is_grouped_by_them():
-    start, leap = grouped_by_part(np.array([0, 0, 1, 2, 0]), 4)
-    assert [leap[start[p] : start[p + 1]].tolist() for p in range(4)] == [[0, 1, 4], [2], [3], []]
 
 
 def test_a_part_is_added_to_tiles():

@@ -44,7 +44,8 @@ def test_no_place_in_the_parts_is_nearer(seed: int) -> None:
         chosen = rng.choice(parts, max(1, len(parts) // 3), replace=False)
         scratch.reached[chosen] = scratch.numbers[0]
         scratch.part_stack[: len(chosen)] = chosen
-        node, _, _, _, far = nearest_reachable(net, doors, scratch, len(chosen), *goal, 1e300)
+        rows = int(np.isin(doors.tile_part, chosen).sum())
+        node, _, _, _, far = nearest_reachable(net, doors, scratch, len(chosen), rows, *goal, 1e300)
         nearest = over_all_cells(graph, doors, scratch, goal)
         assert far == pytest.approx(nearest, abs=1e-12) if node >= 0 else nearest == math.inf
 

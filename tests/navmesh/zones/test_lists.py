@@ -2,15 +2,9 @@
 
 import numpy as np
 
-from navmesh.zones.lists import grouped, lists_with, sides_of
+from navmesh.zones.lists import lists_with, sides_of
 from tests.navmesh.shapes import box, plane
 from tests.navmesh.surface.levels import build
-
-
-def test_values_are_grouped_in_their_order():
-    start, values = grouped(np.array([2, 0, 2, 1]), 4, np.array([10, 11, 12, 13]))
-    assert start.tolist() == [0, 1, 2, 4, 4]
-    assert values.tolist() == [11, 13, 10, 12]
 
 
 def test_an_outline_is_closed_unless_it_is_a_line():

@@ -38,10 +38,12 @@ from locomotion.ground.collider.layout import (
 )
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["FRICTION", "Ground", "extruded", "height_below", "plane_lookup"]
+__all__ = ["FRICTION", "SLIPPERY", "Ground", "extruded", "height_below", "plane_lookup"]
 
 FRICTION = 0.9
 """Friction of shoes on ordinary ground."""
+SLIPPERY = 0.75
+"""Friction below which feet slip where a person speeds up or slows down quickly."""
 _HOLD = 1.4 * math.sqrt(2.0)
 # friction per slope with which a foot still has force to spare, in the worst direction of the pyramid that
 # stands for the cone of friction: it holds 1 / sqrt(2) of its coefficient there

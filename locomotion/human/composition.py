@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from locomotion.body_events import GotStuck, TurnedAway
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run import controller
-from locomotion.ground.ground import FRICTION
 from locomotion.human.person import Person
 from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.preconditions.changes import SLOW_DOWN, changing, describe_change
@@ -108,8 +107,7 @@ class Composition:
     @property
     def grip(self) -> float:
         """Coefficient of friction of the ground that it reckons with."""
-        ground = self._person.ground
-        return FRICTION if ground is None else ground.friction
+        return self._person.simulation.grip
 
     def _site(self, obstacle: ObstacleAhead) -> NDArray[np.float64]:
         return site_of(obstacle, self.grip)

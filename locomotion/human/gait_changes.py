@@ -9,6 +9,7 @@ from functools import partial
 from locomotion.body_events import GotStuck
 from locomotion.gaits.limits import RUN_ENTRY, SHORT_ENTRY, run_entry_speed
 from locomotion.gaits.run.layout import STEP_TIME
+from locomotion.ground.ground import SLIPPERY
 from locomotion.human.composition import HOPELESS, Composition
 from locomotion.human.person import Person
 from locomotion.human.state import MOVING
@@ -24,6 +25,7 @@ from locomotion.rehearsal.choices import (
     RESTS_IN,
     RUN_UPS,
     SETTING_OFF,
+    SLIPPERY_SLOWINGS,
     SLOWINGS,
     STEPPINGS,
     STEPS_IN,
@@ -116,6 +118,8 @@ class GaitChanges:
             body.set_off((quickly, run_up), speed + ahead)
 
         choices, least = (SETTING_OFF, HOLDS) if speed >= RUN_ENTRY else (HASTES, HOLDS_FULLY)
+        if self._slips:
+            choices = sorted(choices, key=lambda choice: choice[0])  # not quickly first
         choice, went, seen, known = self._decider.best(person, choices, set_off, _CLEARS, self._clears_in)
         if went >= least and (known or not rehearses):
             set_off(person, choice)
@@ -234,9 +238,18 @@ class GaitChanges:
         if self._decider.answer is None or since == 0 or since % _LOOKS_AGAIN:
             return
         now = person.on_feet.slowing
-        ways = (now, *(each for each in SLOWINGS if each != now))
+        ways = (now, *(each for each in self._slowings if each != now))
         if not self._slow_as_rehearsed(ways, _slow_down, _WALKS_ON, WALKS_IN):
             self._slow_as_rehearsed(BRAKINGS, _brake, ComesToRest(), RESTS_IN)
+
+    @property
+    def _slowings(self) -> Sequence[float]:
+        return SLIPPERY_SLOWINGS if self._slips else SLOWINGS
+
+    @property
+    def _slips(self) -> bool:
+        """Whether its feet slip where it speeds up or slows down quickly."""
+        return self._person.simulation.grip < SLIPPERY
 
     def _slow_down_or_will(self, must: bool) -> None:
         """Slow down to a walk, at once if there was no time to rehearse it; if rehearsals fail, brake, or run
@@ -245,12 +258,12 @@ class GaitChanges:
         may_wait = not must and self._decider.answer is not None and follower.begins_to_slow
         if may_wait and follower.tried_to_slow and ticks - follower.tried_to_slow < self._decider.again:
             return
-        if self._slow_as_rehearsed(SLOWINGS, _slow_down, _WALKS_ON, WALKS_IN):
+        if self._slow_as_rehearsed(self._slowings, _slow_down, _WALKS_ON, WALKS_IN):
             return
         if not must and self._brakes_well(may_wait):
             return
         if not may_wait:
-            self._person.slow_down(SLOWINGS[0])
+            self._person.slow_down(self._slowings[0])
         if self._decider.answer is not None:
             follower.tried_to_slow = ticks
 

@@ -15,7 +15,7 @@ from locomotion.errors import LocomotionError
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.layout import LEFT_FOOT, RIGHT_FOOT
 from locomotion.gaits.walk.footholds import ground_at
-from locomotion.ground.ground import Ground, plane_lookup
+from locomotion.ground.ground import FRICTION, Ground, plane_lookup
 from surefoot.kernels import kernel
 
 __all__ = ["Simulation", "movements"]
@@ -66,6 +66,11 @@ class Simulation:
             return np.array([x, y, 0.0])
         below = float(self.ground.surface_below([[x, y, float(com[2])]])[0][0])
         return np.array([x, y, below if np.isfinite(below) else z])
+
+    @property
+    def grip(self) -> float:
+        """Coefficient of friction of the ground."""
+        return FRICTION if self.ground is None else self.ground.friction
 
     @property
     def slope_here(self) -> float:

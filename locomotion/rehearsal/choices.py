@@ -23,6 +23,7 @@ __all__ = [
     "RUN_UPS",
     "SETTING_OFF",
     "SETTLED",
+    "SLIPPERY_SLOWINGS",
     "SLOWINGS",
     "STEPPINGS",
     "STEPS_IN",
@@ -60,6 +61,8 @@ HASTES = tuple(
 references that begin faster. What holds most often comes first, then what holds where that does not."""
 SLOWINGS = (1.0, 0.92, 1.08, 0.84, 1.16, 0.76, 1.24, 0.68, 1.32, 0.6, 1.4)
 """[m/s^2] by which the run's reference speed is lowered."""
+SLIPPERY_SLOWINGS = tuple(sorted(SLOWINGS, key=lambda slowing: abs(slowing - 0.68)))
+"""The same on slippery ground, where the feet slide away ahead of one that slows down quickly."""
 ENDINGS = (True,)
 """The way to end a run as learned."""
 BALKINGS = (1.2, 0.9, 1.6, 0.7, 2.2, 3.0)

@@ -30,6 +30,7 @@ from locomotion.rehearsal.choices import (
     RUN_UPS,
     RUNS_ON,
     SETTLED,
+    SLIPPERY_SLOWINGS,
     SLOWINGS,
     STEPS_IN,
 )
@@ -55,6 +56,7 @@ _WALKING, _TURNING = round(4.0 / CONTROL_DT), round(7.0 / CONTROL_DT)
 # ticks that it must stay up behind an obstacle if it walks on, and if it goes back for the next one
 _TRAPPED = 0.25  # score if it clears an obstacle but finds no way to continue
 _LOOKED_AT = 2  # variations tried for continuing: after a good landing most work, after a bad one none
+_SLOWS_DOWN = (ENDINGS, SLOWINGS, SLIPPERY_SLOWINGS, BRAKINGS)
 _ASKED = 8  # attempts to slow down behind an obstacle
 _WATCHED = round(1.0 / CONTROL_DT)  # last ticks of these, in which it must not stagger
 _STAGGERS = 0.2  # [m] nearer to or farther from its path: that much is staggering
@@ -234,7 +236,7 @@ def slows_down_in_time(body: Understudy, state: HumanState) -> Generator[None, N
             if _failed(body):
                 return False
             state = body.save_state()
-        elif question.choices not in (ENDINGS, SLOWINGS, BRAKINGS) or len(answers) == _ASKED:
+        elif question.choices not in _SLOWS_DOWN or len(answers) == _ASKED:
             return False
         else:
             _, choices, choose, goes_well, _ = question

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from locomotion import Human
+from locomotion import Ground, Human
 
 WAY = np.array([[0.0, 0.0, 0.0], [60.0, 0.0, 0.0]])
 
 
-def running(ticks: int, speed: float = 3.0, rehearsals: int = 16) -> Human:
-    human = Human(None, clearing=(), rehearsals=rehearsals)
+def running(ticks: int, speed: float = 3.0, rehearsals: int = 16, ground: Ground | None = None) -> Human:
+    human = Human(ground, clearing=(), rehearsals=rehearsals)
     human.reset(WAY[0], 0.0, speed)
     human.follow(WAY, speed)
     for _ in range(ticks):

@@ -5,12 +5,16 @@ import pytest
 
 from locomotion.gaits.brake import BRAKING
 from locomotion.gaits.limits import RUN_ENTRY, SHORT_ENTRY
+from locomotion.ground.ground import Ground
 from locomotion.human import gait_changes
 from locomotion.human.human import Human
 from locomotion.paths.smoothing import ObstacleAhead
+from locomotion.rehearsal.choices import SLIPPERY_SLOWINGS, SLOWINGS
 from locomotion.rehearsal.trials import ComesToRest
 from tests.locomotion.gaits.runners import running
 from tests.locomotion.human.people import Recorder
+
+FIELD = np.array([[-5.0, -9.0, 0.0], [70.0, -9.0, 0.0], [70.0, 9.0, 0.0], [-5.0, 9.0, 0.0]])
 
 
 def test_one_whose_braking_does_not_go_well_runs_on_for_a_moment_and_slows_down(monkeypatch):
@@ -117,3 +121,15 @@ def test_nobody_begins_a_run_up_far_beside_the_path(monkeypatch):
         human.tick()
         beside.append(abs(human.lateral_error))
     assert beside[0] > 1.8 and beside[-1] < 1.55
+
+
+def test_on_slippery_ground_it_slows_down_gently():
+    ways = []
+    for friction in (0.9, 0.45):
+        human = running(300, rehearsals=0, ground=Ground.from_arrays(FIELD, [[0, 1, 2], [0, 2, 3]]))
+        assert human.ground is not None
+        human.ground.friction = friction
+        human.stop()
+        human.tick()
+        ways.append(human.on_feet.slowing)
+    assert ways == [SLOWINGS[0], SLIPPERY_SLOWINGS[0]] and ways[1] < 0.75

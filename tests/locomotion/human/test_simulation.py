@@ -8,7 +8,7 @@ import pytest
 
 from locomotion.errors import LocomotionError
 from locomotion.gaits.run.layout import COM, FEET
-from locomotion.ground.ground import Ground
+from locomotion.ground.ground import FRICTION, Ground
 from locomotion.human.simulation import Simulation, movements
 
 CORNERS = np.array([[-5.0, -5, -1.0], [5, -5, 1.0], [5, 5, 1.0], [-5, 5, -1.0]])
@@ -27,6 +27,12 @@ def test_it_is_where_the_ground_is_below_its_centre_of_mass(on_slope):
     assert on_slope.position == pytest.approx([2.0, 1.0, SLOPE * 2.0])
     assert on_slope.slope_here == pytest.approx(SLOPE) and on_slope.over_ground
     assert on_slope.footing == pytest.approx([SLOPE * 2.0, SLOPE * 2.1])
+
+
+def test_its_grip_is_the_friction_of_its_ground(on_slope):
+    assert on_slope.grip == Simulation(None).grip == FRICTION
+    on_slope.ground.friction = 0.5
+    assert on_slope.grip == 0.5
 
 
 def test_beside_its_ground_it_is_at_its_lower_foot(on_slope):

@@ -428,7 +428,7 @@ class Human(Person):
             feet.choose_walk(follower, moving, self.simulation, self.command, free)
         elif self.status == "standing" and not self.pushed_until:
             feet.choose_walk(follower, False, self.simulation, self.command, True)
-        feet.tick(self.simulation.lookup, state, self.command, data)
+        feet.tick(self.simulation, self.command)
         if self.status != "fallen":
             if feet.runs:
                 self._clear()
@@ -463,7 +463,7 @@ class Human(Person):
 
     def _clear(self) -> None:
         """After a running tick: act on the obstacle ahead."""
-        happened = self.run_up.tick(self.arc_length, self.control, self.data)
+        happened = self.run_up.tick(self.arc_length, self.control, self.data, self.simulation.grip)
         obstacle = self.run_up.ahead
         if isinstance(happened, TakeOff):
             assert obstacle is not None

@@ -3,7 +3,7 @@
     feet = OnFeet(run, walk, slow_down, speed_up)
     feet.steer(way, state, moving, planned, tick, command)
     feet.choose_walk(way, moving, simulation, command)
-    feet.tick(lookup, state, command, data)
+    feet.tick(simulation, command)
     mujoco.mj_step(model, data, STEPS_PER_TICK)
     feet.observe(index, state, command, data)
 
@@ -56,6 +56,7 @@ from locomotion.gaits.walk.layout import (
 from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, WalkSkill
 from locomotion.gaits.walk.steps import TURN_TIME
 from locomotion.gaits.walk.strain import FORESEEN, STRAINED, USUAL, note_strain, slope_ahead
+from locomotion.ground.ground import FRICTION
 from locomotion.human.intent import TURN_FIRST
 from locomotion.human.landing import Landing
 from locomotion.human.learned_tick import MOST_TURN, SIDEWAYS
@@ -65,6 +66,7 @@ from locomotion.human.simulation import Simulation
 from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SPEED_ASKED
 from locomotion.paths.follower import PathFollower
 from locomotion.paths.table import TrackingLimits
+from locomotion.skills.drop_roll.slippery import load_slippery_roll
 
 __all__ = ["RUN_GAINS", "OnFeet"]
 
@@ -149,6 +151,7 @@ class OnFeet:
         self.limits, self.learned_limits, self.walk_limits = (
             made.limits, made.learned_limits, made.walk_limits
         )  # fmt: skip
+        self._slippery = load_slippery_roll()
         self.walk = new_walk()
         self.learned = None if policy is None else LearnedWalk(policy)
         self.residual = Residual(residual)
@@ -357,15 +360,14 @@ class OnFeet:
         elif learned.active and not suits:
             learned.give_back(body, walk, self.walk_skill.speed)
 
-    def tick(
-        self, lookup: tuple[NDArray, ...], state: NDArray, command: NDArray, data: mujoco.MjData
-    ) -> None:
-        """Control: write the PD targets into ``data.ctrl``."""
+    def tick(self, body: Simulation, command: NDArray) -> None:
+        """Control: write the PD targets into ``body.data.ctrl``."""
+        lookup, state, data = body.lookup, body.control, body.data
         if self.learned is not None and self.walks_as_learned:
             self.learned.tick(lookup, command, data, self.walk)
             self.speed = self.learned.speed
         elif self.walks:
-            tables = self._walk_tables()
+            tables = self._walk_tables(body.grip)
             observed = state[controller.OBSERVED]
             walk_tick(tables, lookup, self.walk, observed, command, data.qpos, data.qvel, data.ctrl)
             self.speed = float(self.walk[WALK_SPEED])
@@ -377,9 +379,11 @@ class OnFeet:
             self.speed = float(state[controller.SPEED])
         self.residual.tick(self.brakes, state, self.walk, data)
 
-    def _walk_tables(self) -> NDArray[np.float64]:
-        """The gains of its present walk."""
+    def _walk_tables(self, grip: float) -> NDArray[np.float64]:
+        """The gains of its present walk, on ground with a coefficient of friction ``grip``."""
         steps = int(self.walk[WALK_STEPS])
+        if steps < 0 and grip < FRICTION:
+            return self._slippery.walk_tables(self.walk_skill, self._slippery.share(grip))
         first_steps = self._braking_steps if self.brakes else self._first_steps
         if self.walk[CAUGHT] > 0.0 and steps < len(first_steps):
             return first_steps[steps]

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import pathsmooth
 from locomotion.errors import LocomotionError
+from locomotion.ground.ground import FRICTION
 from locomotion.paths.approach_legs import set_legs
 from locomotion.paths.gait_plan import LANDED, SET_OFF, braking_length
 from locomotion.paths.room import with_room
@@ -69,6 +70,7 @@ class ObstacleAhead:
         normal: (3,) float64, horizontal unit vector at right angles to the edge, towards the run-up side.
         depth: [m] as in `NodeGraph.obstacles`: thickness of what is vaulted, width of a gap, length of
             what is jumped onto.
+        friction: coefficient of friction of the ground, filled in by the body that takes off.
     """
 
     arc_length: float
@@ -77,6 +79,7 @@ class ObstacleAhead:
     position: NDArray[np.float64]
     normal: NDArray[np.float64]
     depth: float = 0.0
+    friction: float = FRICTION
 
     @property
     def size(self) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from locomotion.gaits.run import controller
 from locomotion.gaits.run.skill import RunSkill
+from locomotion.ground.ground import FRICTION
 from locomotion.paths.follower import PathFollower
 from locomotion.paths.gait_plan import RUN_UP, SET_OFF
 from locomotion.paths.smoothing import ObstacleAhead
@@ -118,11 +119,12 @@ class RunUp:
         return skill
 
     def tick(
-        self, arc: float, state: NDArray[np.float64], data: mujoco.MjData
+        self, arc: float, state: NDArray[np.float64], data: mujoco.MjData, grip: float = FRICTION
     ) -> TakeOff | ObstacleAhead | None:
         """After the run's tick: plan the run-up at each stance switch, start the skill at its mark, tick it.
 
-        arc: length [m] of the path behind the body; state: the running controller's. Returns a `TakeOff` when
+        arc: length [m] of the path behind the body; state: the running controller's; grip: coefficient of
+        friction of the ground. Returns a `TakeOff` when
         a skill begins, and the obstacle when it has been cleared.
         """
         obstacle, began = self.ahead, None
@@ -135,7 +137,7 @@ class RunUp:
                 self.plan[STEPS_SEEN] = state[controller.STEPS]
                 straight = distance_to(obstacle, *state[controller.COM][:2])
                 self.plan[BEND] = max(obstacle.arc_length - arc - straight, 0.0)
-                began = self._plan_step(obstacle, state)
+                began = self._plan_step(replace(obstacle, friction=grip), state)
         if self.at_work is not None and self.skill.tick(obstacle, self.at_work, state, data):
             self.at_work = None
             self._pass()

@@ -33,6 +33,7 @@ _WITHOUT_A_PLANE = (
     "slow-down",
     "brake",
     "brake-residual",
+    "slippery-roll",
     "landing-residual",
 )
 """Skills whose trials do not vary in two numbers, so that no coverage picture can be drawn."""
@@ -48,12 +49,13 @@ def _trainers() -> Mapping[str, Callable[..., Any]]:
     from locomotion.training.gaits.walk import train_walk
     from locomotion.training.policies.walk import train_walk_policy
     from locomotion.training.residual.train import train_brake_residual, train_landing_residual
+    from locomotion.training.skills.slippery_roll import train_slippery_roll
 
     return {
         "walk": train_walk, "run": train_run, "speed-up": train_speed_up, "slow-down": train_slow_down,
         "brake": train_brake, "brake-residual": train_brake_residual, "walk-policy": train_walk_policy,
         **{kind.skill: kind.train for kind in skill_kinds() if kind.train is not None},
-        "landing-residual": train_landing_residual,
+        "slippery-roll": train_slippery_roll, "landing-residual": train_landing_residual,
     }  # fmt: skip
 
 

@@ -9,6 +9,7 @@ from runtime.evaluation.braking import brake_residual_trials
 from runtime.evaluation.evaluation import Attempt, Trial
 from runtime.evaluation.landing import landing_residual_trials
 from runtime.evaluation.policies import walk_policy_trials
+from runtime.evaluation.slippery import slippery_roll_trials
 from surefoot.progress import Progress
 from surefoot.workers.pool import Place, worker_pool
 
@@ -44,6 +45,7 @@ def _trials_of(skill: str, trials: int, seed: int) -> list[Trial]:
         "brake": evaluation.brake_trials,
         "brake-residual": brake_residual_trials,
         "landing-residual": landing_residual_trials,
+        "slippery-roll": slippery_roll_trials,
         "walk-policy": walk_policy_trials,
         **{kind.skill: partial(evaluation.clearing_trials, kind) for kind in skill_kinds()},
     }

@@ -29,7 +29,7 @@ __all__ = [
     "ACTIONS", "ACTIVE", "AHEAD_X", "AHEAD_Y", "ANGLE",
     "BINS", "EDGE_X", "EDGE_Y", "ENDED", "FALL", "KNOTS", "LOW", "MEMORY_SIZE", "MOST_OFF",
     "PARAMETERS", "PHASE", "PHASE_TICKS", "RANK", "RATE", "RISE", "ROLL", "SENSED", "SENSORS", "SHARE",
-    "SHARE_RATE", "SIDE", "TAKE_OFF", "drop_roll_tick", "parameter_slices",
+    "SHARE_RATE", "SIDE", "SLIPPERY", "TAKE_OFF", "drop_roll_tick", "parameter_slices",
     "start_drop_roll",
 ]  # fmt: skip
 
@@ -88,7 +88,9 @@ EDGE_X, EDGE_Y, AHEAD_X, AHEAD_Y = range(10, 14)
 _FROM = 14  # (39,) targets [rad] of the run with which it began to fall
 _N = len(JOINT_NAMES)
 SENSED = slice(_FROM + _N, _FROM + _N + _N_SENSORS)
-MEMORY_SIZE = _FROM + _N + _N_SENSORS
+SLIPPERY = SENSED.stop
+"""How much it rolls as on slippery ground, 0 to 1."""
+MEMORY_SIZE = SLIPPERY + 1
 _SENSED = SENSED.start
 
 _HIP, _LEFT_HIP = (JOINT_NAMES.index(f"{side}_hip_flexion") for side in ("right", "left"))

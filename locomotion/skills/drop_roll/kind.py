@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from locomotion.gaits.run.skill import RunSkill
 from locomotion.skills.drop_roll.skill import DROP_ROLL_SKILL, DropRoll, load_drop_roll_skill
+from locomotion.skills.drop_roll.slippery import SLIPPERY_ROLL, load_slippery_roll
 from locomotion.skills.kind import SkillKind
 from navmesh.obstacles.kinds import kind_of
 
@@ -17,7 +18,9 @@ __all__ = ["DROP_ROLL"]
 
 
 def _load(run: RunSkill) -> DropRoll | None:
-    return DropRoll(load_drop_roll_skill()) if DROP_ROLL_SKILL.exists() else None
+    if not DROP_ROLL_SKILL.exists():
+        return None
+    return DropRoll(load_drop_roll_skill(), load_slippery_roll() if SLIPPERY_ROLL.exists() else None)
 
 
 def _train(training: Training, out: Path) -> None:

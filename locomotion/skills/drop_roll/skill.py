@@ -1,6 +1,7 @@
 """Learned drop-rolls, and the drop-roll as a skill that the body can use."""
 
 import os
+from dataclasses import replace
 from functools import lru_cache
 from typing import Literal
 
@@ -15,6 +16,7 @@ from locomotion.paths.smoothing import ObstacleAhead
 from locomotion.saved_arrays import COUNT, FLAG, SIDE, Slots
 from locomotion.skills.drop_roll import kernel as drop_roll
 from locomotion.skills.drop_roll.kernel import drop_roll_tick, start_drop_roll
+from locomotion.skills.drop_roll.slippery import SlipperyRoll
 from locomotion.skills.kernel import MIRROR, MIRROR_SIGN
 from locomotion.skills.learned_skill import LawTables, LearnedSkill
 from locomotion.skills.skill_file import SkillFamily, load_family
@@ -76,13 +78,27 @@ class DropRoll(LearnedSkill):
             (drop_roll.SIDE, SIDE),
             (drop_roll.PHASE_TICKS, COUNT),
             (drop_roll.ENDED, FLAG),
+            (drop_roll.SLIPPERY, FLAG),
         ],
         whole=(drop_roll.ACTIVE, drop_roll.PHASE, drop_roll.ENDED),
     )
 
-    def __init__(self, skill: SkillFamily) -> None:
-        """``skill``: the learned drop-rolls."""
+    def __init__(self, skill: SkillFamily, slippery: SlipperyRoll | None = None) -> None:
+        """``skill``: the learned drop-rolls. ``slippery``: how they change on slippery ground; None: they
+        do not."""
         super().__init__(skill, lambda height: tables_of(*skill.at(height)))
+        self._slippery = slippery
+        self._changed: dict[tuple[float, float], LawTables] = {}
+
+    def _tables_on(self, height: float, share: float) -> LawTables:
+        """`tables` with a ``share`` of the change on slippery ground."""
+        usual = self.tables(height)
+        if self._slippery is None or share == 0.0:
+            return usual
+        if (height, share) not in self._changed:
+            parameters = self._slippery.parameters(usual.parameters, share)
+            self._changed[height, share] = replace(usual, parameters=parameters)
+        return self._changed[height, share]
 
     def start(self, obstacle: ObstacleAhead, state: NDArray[np.float64]) -> NDArray[np.float64]:
         """Begin at a stance switch, before that tick's `tick`; gives all that it remembers, (k,) float64. Who
@@ -92,6 +108,8 @@ class DropRoll(LearnedSkill):
         x, y, z = (float(v) for v in obstacle.position)
         ahead_x, ahead_y = -float(obstacle.normal[0]), -float(obstacle.normal[1])
         start_drop_roll(memory, side, z - obstacle.height, x, y, ahead_x, ahead_y)
+        if self._slippery is not None:
+            memory[drop_roll.SLIPPERY] = self._slippery.share(obstacle.friction)
         return memory
 
     def tick(
@@ -102,7 +120,7 @@ class DropRoll(LearnedSkill):
         data: mujoco.MjData,
     ) -> bool:
         """One control tick after `run_tick`'s and before the physics; True when the feet carry it again."""
-        tables = self.tables(obstacle.height)
+        tables = self._tables_on(obstacle.height, float(memory[drop_roll.SLIPPERY]))
         drop_roll_tick(tables.parameters, *tables.rest, memory, state, data.qpos, data.qvel, data.ctrl)
         return bool(memory[drop_roll.ENDED] > 0.0)
 

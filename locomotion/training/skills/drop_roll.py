@@ -22,7 +22,7 @@ from locomotion.training.skills.drop_trial import DropOutcome, DropSimulator
 from locomotion.training.skills.jump_trial import JumpSimulator, StartState
 from locomotion.training.training import Training
 
-__all__ = ["HEIGHTS", "DropProblem", "cost", "first_guess", "scales", "train_drop_roll"]
+__all__ = ["HEIGHTS", "DropProblem", "cost", "first_guess", "harvest", "scales", "train_drop_roll"]
 
 HEIGHTS = (0.9, 2.0)
 """Least and greatest height [m]; one set of parameters serves all in between."""
@@ -296,7 +296,7 @@ def _learn(
         course.clock.skip(simulated([stage]))
         return arrays["x"], arrays["reference"]
     rng = np.random.default_rng([training.seed, number])
-    states = _harvest(course, x, reference, _STATES, rng)
+    states = harvest(course.run, _roll_of(course, x, reference), _STATES, rng)
     problem = DropProblem(course.run, HEIGHTS, x, reference, states, [stage])
     if number >= _REFINED:
         problem.find_hard(x, stage, rng)
@@ -315,7 +315,7 @@ def _learn_to_end(
     """Least squares on how the roll ends; what was done before is read from the checkpoint."""
     training = course.training
     rng = np.random.default_rng([training.seed, number])
-    states = _harvest(course, x, reference, _ROLLS, rng)
+    states = harvest(course.run, _roll_of(course, x, reference), _ROLLS, rng)
     problem = DropProblem(course.run, HEIGHTS, x, reference, states, [])
     return fit(
         problem, x, roll_scales(), rounds, training.seed + number,
@@ -326,12 +326,13 @@ def _learn_to_end(
     )  # fmt: skip
 
 
-def _harvest(
-    course: _Course, x: np.ndarray, reference: np.ndarray, count: int, rng: np.random.Generator
-) -> list[StartState]:
+def _roll_of(course: _Course, x: np.ndarray, reference: np.ndarray) -> DropRoll:
+    return DropRoll(family_of(x, reference, course.stride, course.run, {}))
+
+
+def harvest(run: RunSkill, roll: DropRoll, count: int, rng: np.random.Generator) -> list[StartState]:
     """``count`` start states from planned run-ups, half of them from standing."""
-    guess = DropRoll(family_of(x, reference, course.stride, course.run, {}))
-    runner, states = JumpSimulator(course.run), []
+    runner, states = JumpSimulator(run), []
     for standing in (False, True):
-        states += runner.harvest(guess, rng.uniform(9.5, 30.0, count // 2), rng, standing)
+        states += runner.harvest(roll, rng.uniform(9.5, 30.0, count // 2), rng, standing)
     return states

@@ -91,7 +91,14 @@ class DropSimulator:
         self.skull = np.flatnonzero(self.heads & (self.model.geom_conaffinity > 0))  # capsules
         self.state, self.walk = c.new_state(), new_walk()
         self.command, self.memory = np.zeros(4), np.zeros(dr.MEMORY_SIZE)
+        self.rising = self.gait.tables
         self.place(0.0, 0.0)
+
+    def become_slippery(self, friction: float, rising: np.ndarray) -> None:
+        """Give all that is touched this coefficient of ``friction``; ``rising``: the walk's gains (5,
+        len(GAINS)) while the person comes up."""
+        self.model.geom_friction[:, 0] = friction
+        self.rising = rising
 
     def place(self, edge: float, height: float) -> None:
         """The ledge, at z = 0, ends at x = ``edge`` [m]; the ground is ``height`` [m] below it."""
@@ -132,8 +139,9 @@ class DropSimulator:
             if walks or runs:
                 self._steer(runs, float(start.planted[1]))
             if walks:
+                tables_now = self.rising if self.walk[WALK_STEPS] < 0.0 else self.gait.tables
                 walk_tick(
-                    self.gait.tables, self.lookup, self.walk, observed, self.command, data.qpos, data.qvel,
+                    tables_now, self.lookup, self.walk, observed, self.command, data.qpos, data.qvel,
                     data.ctrl,
                 )  # fmt: skip
             else:

@@ -27,6 +27,7 @@ def _skills() -> tuple[str, ...]:
         "brake",
         "brake-residual",
         *skill_words(),
+        "slippery-roll",
         "landing-residual",
         PRECONDITIONS,
     )

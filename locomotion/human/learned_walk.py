@@ -163,7 +163,7 @@ class LearnedWalk:
         if self.runs:
             return True  # nothing else can go on from here
         way, active, arc = follower.path, self.active, follower.arc
-        if not moving and walk[PHASE] == STANDING:
+        if (not moving and walk[PHASE] == STANDING) or (way is None and active):
             return bool(is_level_around(body.lookup, *body.position.tolist()))
         if way is None:
             return False

@@ -64,7 +64,10 @@ class StrayedFromPath(Event):
 
 @dataclass(frozen=True)
 class LostGround(Event):
-    """The ground under the body, or just ahead on its path, is gone."""
+    """The ground under the body, or just ahead on its path, is gone, or it has fallen off it; ``reason`` says
+    which."""
+
+    reason: str = "there is no ground under it or ahead of it any more"
 
 
 @dataclass(frozen=True)

@@ -127,7 +127,8 @@ class SkillFinished(Event):
 
 @dataclass(frozen=True)
 class Fell(Event):
-    """The agent lost its balance. A human gets up and continues (`GotUp`), unless there is no ground."""
+    """The agent lost its balance. A human gets up and continues (`GotUp`), unless it falls off the level
+    (`Lost`)."""
 
     def _what(self) -> str:
         return f"falls at {_place(self.position)}"
@@ -145,7 +146,7 @@ class GotUp(Event):
 
 @dataclass(frozen=True)
 class Lost(Event):
-    """The agent gave up following its path; ``reason`` says why."""
+    """The agent gave up following its path, or has lost its ground; ``reason`` says why."""
 
     reason: str
 

@@ -4,7 +4,8 @@ Each tick of 10 ms calls `get_up_tick` while `MODE` is below `BORNE`; from then 
 supports the body. The figure protects itself as it falls (`bracing`), rolls onto its front over the nearer
 side, reaches out with its arms, draws its legs up, and pushes itself up. One that sinks down from hands and
 feet goes limp until it lies still. No posture is assumed: each phase ends when its result is observed, and a
-body that does not get onto its front goes limp, too, and tries the other side.
+body that does not get onto its front goes limp, too, and tries the other side. Where it is steep, one on its
+front first turns its head uphill (`pivoting`).
 """
 
 import math
@@ -12,7 +13,6 @@ import math
 import numpy as np
 
 from locomotion.body.person import CONTROL_DT
-from locomotion.gaits.walk.layout import clamp
 from locomotion.recovery.bracing import begin_to_brace, brace
 from locomotion.recovery.layout import (
     ALL_DOWN,
@@ -27,6 +27,7 @@ from locomotion.recovery.layout import (
     MODE,
     MODE_CLOCK,
     PHASE,
+    PIVOTING,
     REACHING,
     RISEN,
     ROLL_SIDE,
@@ -41,13 +42,16 @@ from locomotion.recovery.layout import (
     TUCKING,
     TURNING,
 )  # fmt: skip
-from locomotion.recovery.postures import mirrored, posture
+from locomotion.recovery.pivoting import PIVOTS, ROUND, SPREAD, begin_round, off_uphill, pivot
+from locomotion.recovery.postures import mirrored, move, posture
 from locomotion.recovery.scrambling import lie_of
 from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = ["bear_on", "begin_getting_up", "begin_to_fall", "get_up_tick", "lies_on_front", "rise_on"]
 
+_TURN_MOST = 5.0  # [s] after which it gets up as it lies
 _STILL, _LIMP_LEAST, _LIMP_MOST = 0.4, 0.2, 1.5  # [m/s], [s]
+_SLIDES_MOST = 4.0  # [s] for which it waits, spread out, until it does not slide any more
 _LIES, _BRACE_LEAST = 1.0, 0.4  # [m/s], [s] for a body that braces: it may roll over while it still slides
 _GATHER_TIME, _SWING_TIME, _FOLLOW_TIME = 0.2, 0.33, 0.4  # [s]
 _REACH_TIME, _SETTLE_TIME, _TUCK_TIME, _RISE_TIME = 0.35, 0.1, 0.7, 0.7  # [s]
@@ -79,21 +83,43 @@ _FOLLOW_OVER = posture(
     right_knee_flexion=92, right_ankle_flexion=-50, left_hip_flexion=14, left_hip_abduction=45,
     left_hip_rotation=-23, left_knee_flexion=146, left_ankle_flexion=-9,
 )  # fmt: skip
+# the same where it is steep: it does not roll on, and down
+_SWING_STEEP = posture(
+    waist_pitch=2, waist_roll=-25, waist_yaw=-30, chest_pitch=-20, chest_roll=-20, chest_yaw=35,
+    right_shoulder_flexion=180, right_shoulder_abduction=-30, right_shoulder_rotation=-44,
+    left_shoulder_flexion=180, left_shoulder_abduction=-3, left_shoulder_rotation=-49,
+    left_elbow_flexion=41, right_hip_flexion=-26, right_hip_abduction=-30, right_hip_rotation=-40,
+    right_knee_flexion=5, right_ankle_flexion=30, left_hip_flexion=125, left_hip_abduction=-14,
+    left_hip_rotation=45, left_knee_flexion=-2, left_ankle_flexion=-40,
+)  # fmt: skip
+_FOLLOW_STEEP = posture(
+    waist_pitch=-25, waist_roll=25, waist_yaw=17, chest_pitch=-20, chest_roll=-7, chest_yaw=-35,
+    right_shoulder_flexion=180, right_shoulder_abduction=11, right_shoulder_rotation=-35,
+    right_elbow_flexion=60, left_shoulder_flexion=60, left_shoulder_abduction=23,
+    left_shoulder_rotation=-56, left_elbow_flexion=11, right_hip_flexion=-2, right_hip_abduction=-30,
+    right_hip_rotation=45, right_knee_flexion=28, right_ankle_flexion=-50, left_hip_flexion=21,
+    left_hip_abduction=45, left_hip_rotation=-40, left_knee_flexion=79, left_ankle_flexion=-9,
+)  # fmt: skip
 _GATHERED = posture(
     waist_pitch=9, chest_pitch=3, shoulder_flexion=-1, shoulder_abduction=11, shoulder_rotation=1,
     elbow_flexion=10, hip_flexion=6, hip_abduction=-3, hip_rotation=-12, knee_flexion=-2, ankle_flexion=-1,
-)  # fmt: skip
-_REACH = posture(
-    shoulder_flexion=0, shoulder_abduction=85, shoulder_rotation=-50, elbow_flexion=25, neck_pitch=-20,
-    hip_abduction=20,
 )  # fmt: skip
 _TUCK = posture(
     shoulder_flexion=0, shoulder_abduction=65, shoulder_rotation=-20, elbow_flexion=105, hip_flexion=115,
     hip_abduction=40, knee_flexion=135, ankle_flexion=20, toe_extension=40, neck_pitch=-20,
 )  # fmt: skip
+_TUCK_STEEP = posture(
+    shoulder_flexion=20, shoulder_abduction=65, shoulder_rotation=-20, elbow_flexion=105, hip_flexion=60,
+    hip_abduction=40, knee_flexion=90, ankle_flexion=20, toe_extension=40, neck_pitch=-20,
+)  # fmt: skip
 
 
-_OVER = np.array([[_SWING_OVER, _FOLLOW_OVER], [mirrored(_SWING_OVER), mirrored(_FOLLOW_OVER)]])
+_OVER = np.array(
+    [
+        [[swing, follow], [mirrored(swing), mirrored(follow)]]
+        for swing, follow in ((_SWING_OVER, _FOLLOW_OVER), (_SWING_STEEP, _FOLLOW_STEEP))
+    ]
+)
 
 
 @allocating_kernel
@@ -140,33 +166,23 @@ def _go_on(memory, mode, angles):
     memory[BEGUN_FROM] = angles
 
 
-@kernel
-def _move(begun, target, share, ctrl):
-    """From one posture to another (39,), ``share`` of the way in time."""
-    u = clamp(share, 0.0, 1.0)
-    u = u * u * (3.0 - 2.0 * u)
-    for j in range(39):
-        ctrl[j] = begun[j] + u * (target[j] - begun[j])
-
-
 @allocating_kernel
 def get_up_tick(ground, memory, qpos, qvel, ctrl):
     """One control tick: advance ``memory``, write the PD targets ``ctrl`` (39,) [rad]."""
     memory[MODE_CLOCK] += CONTROL_DT
     clock, mode, begun = memory[MODE_CLOCK], memory[MODE], memory[BEGUN_FROM]
+    v, steep = memory[SEEN_VELOCITY], steepness(ground, memory) > _ROLLS
+    speed = math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
     if mode <= LIMP:
-        steep = steepness(ground, memory) > _ROLLS
         braces = mode == BRACING and not steep
         if braces:
             brace(memory, qvel, ctrl)
         elif steep:  # a body that spreads out does not roll down
-            _move(begun, _REACH, clock / _SPREAD_TIME, ctrl)
+            move(begun, SPREAD, clock / _SPREAD_TIME, ctrl)
         else:
             ctrl[:] = qpos[7:]
-        v = memory[SEEN_VELOCITY]
         least, still = (_BRACE_LEAST, _LIES) if braces else (_LIMP_LEAST, _STILL)
-        slow = math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) < still
-        if (slow and clock > least) or clock > _LIMP_MOST:
+        if (speed < still and clock > least) or clock > (_SLIDES_MOST if steep else _LIMP_MOST):
             front, left = lies_on_front(ground, memory)
             # over the side that is down already; if that failed, over the other
             memory[ROLL_SIDE] = (
@@ -174,34 +190,58 @@ def get_up_tick(ground, memory, qpos, qvel, ctrl):
             )
             _go_on(memory, REACHING if front < _ON_FRONT else ROLLING, qpos[7:])
     elif mode == ROLLING:
-        over = _OVER[int(memory[ROLL_SIDE])]
+        # in a notch nobody gets over who does not dare to roll on: after a try to both sides it does
+        careful = steep and memory[TRIES] % 4.0 < 2.0
+        over = _OVER[1 if careful else 0, int(memory[ROLL_SIDE])]
         # arms and legs that are spread or bent keep it from rolling; where it is steep, from rolling down
-        gathers = memory[TRIES] > 0.0 or steepness(ground, memory) < _ROLLS
-        if gathers:
+        if not careful:
             clock -= _GATHER_TIME
         if clock <= 0.0:
-            _move(begun, _GATHERED, 1.0 + clock / _GATHER_TIME, ctrl)
+            move(begun, _GATHERED, 1.0 + clock / _GATHER_TIME, ctrl)
         elif clock <= _SWING_TIME:
-            _move(_GATHERED if gathers else begun, over[0], clock / _SWING_TIME, ctrl)
+            move(begun if careful else _GATHERED, over[0], clock / _SWING_TIME, ctrl)
         else:
-            _move(over[0], over[1], (clock - _SWING_TIME) / _FOLLOW_TIME, ctrl)
-        if clock > _SWING_TIME + _FOLLOW_TIME:
-            _go_on(memory, REACHING, over[1])
+            move(over[0], over[1], (clock - _SWING_TIME) / _FOLLOW_TIME, ctrl)
+        # where it is steep, it stops as soon as it is on its front, or it rolls on
+        comes_over = steep and lies_on_front(ground, memory)[0] < _ON_FRONT
+        if clock > _SWING_TIME + _FOLLOW_TIME or (comes_over and clock > _SWING_TIME):
+            _go_on(memory, REACHING, ctrl)
     elif mode == REACHING:
-        _move(begun, _REACH, clock / _REACH_TIME, ctrl)
-        if clock > _REACH_TIME + _SETTLE_TIME:
+        move(begun, SPREAD, clock / _REACH_TIME, ctrl)
+        settles = steep and speed > _STILL and clock < _SLIDES_MOST
+        if clock > _REACH_TIME + _SETTLE_TIME and not settles:
             if lies_on_front(ground, memory)[0] > _ON_FRONT:
                 memory[TRIES] += 1.0
                 _go_on(memory, LIMP, qpos[7:])
             else:
-                _go_on(memory, TUCKING, _REACH)
+                _turn_or_tuck(ground, memory, 0.0)
+    elif mode == PIVOTING:
+        pivot(memory, ctrl)
+        if lies_on_front(ground, memory)[0] > _OFF_FRONT:
+            _go_on(memory, LIMP, qpos[7:])
+        elif clock > CONTROL_DT and clock % ROUND < CONTROL_DT:
+            _turn_or_tuck(ground, memory, clock)
     else:
-        _move(begun, _TUCK, clock / _TUCK_TIME, ctrl)
+        # where it is steep, knees that come far up tip it over
+        tuck = _TUCK_STEEP if steep else _TUCK
+        move(begun, tuck, clock / _TUCK_TIME, ctrl)
         if lies_on_front(ground, memory)[0] > _OFF_FRONT:
             _go_on(memory, LIMP, qpos[7:])
         elif clock > _TUCK_TIME:
-            _go_on(memory, BORNE, _TUCK)
+            _go_on(memory, BORNE, tuck)
             bear_on(memory, 0.0)
+
+
+@allocating_kernel
+def _turn_or_tuck(ground, memory, turned):
+    """The body lies on its front, arms and legs spread, and has ``turned`` for so many seconds."""
+    off = off_uphill(ground, memory)
+    if steepness(ground, memory) < _ROLLS or abs(off) < PIVOTS or turned > _TURN_MOST:
+        _go_on(memory, TUCKING, SPREAD)
+        return
+    begin_round(memory, off)
+    if turned == 0.0:
+        _go_on(memory, PIVOTING, SPREAD)
 
 
 @kernel

@@ -5,8 +5,8 @@ import numpy as np
 __all__ = [
     "AIR", "ALL_DOWN", "ANCHORS", "AWAY", "AXES", "BEGUN_FROM", "BIAS", "BORNE", "BRACING", "CENTRE", "CLOCK",
     "DOWN", "FACING", "GATHERING", "GATHERS", "HOLDS", "HOMES", "LIE_AHEAD", "LIE_HERE", "LIFT", "LIMP",
-    "LOADS", "MODE", "MODE_CLOCK", "PAIR", "PHASE", "REACHING", "RISEN", "RISING", "ROLLING", "ROLL_SIDE",
-    "SCRAMBLE_SIZE",
+    "LOADS", "MODE", "MODE_CLOCK", "PAIR", "PHASE", "PIVOT", "PIVOTING", "REACHING", "RISEN", "RISING",
+    "ROLLING", "ROLL_SIDE", "SCRAMBLE_SIZE",
     "SEEN_BASE", "SEEN_COM", "SEEN_FORCES", "SEEN_LIMBS", "SEEN_TRUNK", "SEEN_TURN", "SEEN_VELOCITY",
     "SPOT", "STANCE", "SWINGING", "TICKS", "TRIES", "TUCKING", "TURNING", "new_scramble",
 ]  # fmt: skip
@@ -36,7 +36,7 @@ HOLDS, AIR = slice(364, 376), slice(376, 380)
 MODE, MODE_CLOCK, ROLL_SIDE, TRIES = range(380, 384)
 """What the body does (one of the next line's, `AWAY` where hands and feet do not move it), for how long [s];
 side over which it rolls (0: right); times that rolling has failed."""
-AWAY, BRACING, LIMP, ROLLING, REACHING, TUCKING, BORNE, RISING = -1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0
+AWAY, BRACING, LIMP, ROLLING, REACHING, PIVOTING, TUCKING, BORNE, RISING = (float(k) for k in range(-1, 8))
 BEGUN_FROM = slice(384, 423)
 """Joint angles [rad] with which what it does began."""
 LIE_HERE, LIE_AHEAD = slice(423, 425), slice(425, 427)
@@ -45,7 +45,9 @@ GATHERING = 427
 """[s] for which the feet have been stepping under the body for it to rise, in this round."""
 GATHERS = 5.0
 """[s] for which they try, until it scrambles on a bit."""
-SCRAMBLE_SIZE = 428
+PIVOT = 428
+"""How far it swings round in this round of turning on its front: share of the most, below 0 to the right."""
+SCRAMBLE_SIZE = 429
 
 HOMES = {
     "hand_ahead": 0.34,  # [m] from the centre of mass to the hands

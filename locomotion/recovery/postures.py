@@ -1,4 +1,4 @@
-"""Postures of the body by the names of joints."""
+"""Postures of the body by the names of joints, and the ways from one to another."""
 
 import math
 
@@ -6,8 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.person import JOINT_NAMES
+from locomotion.gaits.walk.layout import clamp
+from surefoot.kernels import kernel
 
-__all__ = ["mirrored", "posture"]
+__all__ = ["mirrored", "move", "posture"]
 
 
 def posture(**degrees: float) -> NDArray[np.float64]:
@@ -30,3 +32,12 @@ def mirrored(angles: NDArray[np.float64]) -> NDArray[np.float64]:
         elif name.endswith(("_roll", "_yaw")):
             out[i] = -angles[i]
     return out
+
+
+@kernel
+def move(begun, target, share, ctrl):
+    """From one posture to another (39,), ``share`` of the way in time: write ``ctrl`` (39,)."""
+    u = clamp(share, 0.0, 1.0)
+    u = u * u * (3.0 - 2.0 * u)
+    for j in range(39):
+        ctrl[j] = begun[j] + u * (target[j] - begun[j])

@@ -80,6 +80,7 @@ _UPHILL = 0.12  # slope that counts as much as the way in where to face
 _COMING = 0.3  # [m] ahead where it looks how the ground lies, too
 _LOOKS = 5.0  # ticks after which it does so again: less than 1 cm later
 _TURN_RATE = 0.7  # [rad/s]
+_NEARER = (1.0, 0.7, 0.4)  # of its way out, tried in turn for a limb that finds no ground
 _AROUND = 0.6  # [m] around the body that tells how the ground lies
 _RING = _AROUND * np.stack([np.cos(0.25 * np.pi * np.arange(4)), np.sin(0.25 * np.pi * np.arange(4))], axis=1)
 _LEAD = 0.1  # [s] servo damping per stiffness
@@ -97,24 +98,32 @@ _SHIFT, _WAITS = 0.4, 0.4  # [m/s] at which it comes over that line; [s] for whi
 _STRAY = 0.08  # [m] that the centre of mass may be from where it is to be
 
 
+@kernel
+def _height_at(ground, x, y, z):
+    """Height of the ground at (x, y), about ``z``; NaN where there is none."""
+    rows, cell_start, cell_triangles, grid, shape, origin = ground
+    px, py, pz = x - origin[0], y - origin[1], z + 1.0 - origin[2]
+    h = height_below(rows, cell_start, cell_triangles, grid, shape, px, py, pz)[0] + origin[2]
+    return h if abs(h - z) < 1.5 else np.nan
+
+
 @allocating_kernel
 def lie_of(ground, x, y, z, out):
     """Gradient (2,) of the ground around (x, y, z)."""
-    rows, cell_start, cell_triangles, grid, shape, origin = ground
-    heights = np.empty((2, 4))
-    for side in range(2):
-        for k in range(4):
-            px = x + (1.0 - 2.0 * side) * _RING[k, 0] - origin[0]
-            py = y + (1.0 - 2.0 * side) * _RING[k, 1] - origin[1]
-            h = height_below(rows, cell_start, cell_triangles, grid, shape, px, py, z + 1.0 - origin[2])[0]
-            heights[side, k] = h + origin[2]
     out[:] = 0.0
     n = 0
     for k in range(4):
-        h, o = heights[0, k], heights[1, k]
-        if abs(h - z) < 1.5 and abs(o - z) < 1.5:  # not so where there is none
-            out[0] += (h - o) * _RING[k, 0] / (2.0 * _AROUND * _AROUND)
-            out[1] += (h - o) * _RING[k, 1] / (2.0 * _AROUND * _AROUND)
+        dx, dy, apart = _RING[k, 0], _RING[k, 1], 2.0 * _AROUND
+        h, o = _height_at(ground, x + dx, y + dy, z), _height_at(ground, x - dx, y - dy, z)
+        if h != h or o != o:  # beside a rim one side counts, or the ground would seem to fall along the rim
+            middle, apart = _height_at(ground, x, y, z), _AROUND
+            if h == h:
+                o = middle
+            else:
+                h = middle
+        if h == h and o == o:
+            out[0] += (h - o) * dx / (apart * _AROUND)
+            out[1] += (h - o) * dy / (apart * _AROUND)
             n += 1
     if n > 0:
         out *= 2.0 / n
@@ -133,21 +142,28 @@ def steeper(ground, points, slope):
 
 @kernel
 def _home(ground, p, k, x, y, z, facing, slope, out):
-    """Where limb ``k`` is at home under a centre of mass over (x, y): ``out`` (3,)."""
+    """Where limb ``k`` is at home under a centre of mass over (x, y): ``out`` (3,). It comes nearer to the
+    body where there is no ground."""
     side = -1.0 if k % 2 == 0 else 1.0
     if k < 2:
         u, v = p[_HAND_AHEAD], side * p[_HAND_OUT]
     else:
         u, v = -p[_FOOT_BEHIND] + p[_FOOT_SLOPE] * clamp(slope, 0.0, 1.0), side * p[_FOOT_OUT]
     ch, sh = math.cos(facing), math.sin(facing)
-    out[0], out[1] = x + ch * u - sh * v, y + sh * u + ch * v
-    _settle(ground, k, z, out)
+    for share in _NEARER:
+        out[0], out[1] = x + share * (ch * u - sh * v), y + share * (sh * u + ch * v)
+        if _settle(ground, k, z, out):
+            break
 
 
 @kernel
 def _settle(ground, k, z, out):
+    """Lower limb ``k`` at ``out`` (3,) onto the ground, or to about ``z`` where there is none; return whether
+    there is."""
     h, _, _, n2 = ground_at(ground, out[0], out[1], z + 1.0)
-    out[2] = (h if h == h and abs(h - z) < 1.2 else z) + _RADIUS[k] / max(n2, 0.4)
+    there = h == h and abs(h - z) < 1.2
+    out[2] = (h if there else z) + _RADIUS[k] / max(n2, 0.4)
+    return there
 
 
 @kernel

@@ -50,7 +50,7 @@ def news_of(event: bodily.Event, agent: str, born: float, goal: Point) -> Event 
     if isinstance(event, bodily.BackedOut):
         return BackedOut(**base, length=event.distance)
     if isinstance(event, bodily.LostGround):
-        return Lost(**base, reason="there is no ground under it or ahead of it any more")
+        return Lost(**base, reason=event.reason)
     if isinstance(event, bodily.StrayedFromPath):
         return Lost(**base, reason=f"is {event.distance:.1f} m beside its path")
     return None

@@ -465,12 +465,12 @@ class World:
 
         Nobody is moved. Agents whose route is still valid keep walking; the others look for another route to
         the same goals, and stop, with `Blocked`, where there is none. If its ground is removed, a quadruped
-        stops and a walker stays where it is (both with `Lost`), and a person falls. Raises
-        `navmesh.NavmeshError` for the removal of a chunk that is not there and when nothing walkable is left,
-        `RuntimeInputError` for what is no mapping or no time, and in an open world, which changes by
-        `keep_around` and `players`; the world is then as it was. What only turns out when the change is
-        worked out, such as that nothing walkable is left, `step` raises before the tick for which it is due;
-        that change is dropped, and the world can be stepped on.
+        stops and a walker stays where it is (both with `Lost`), and a person falls, with `Lost` if nothing is
+        below. Raises `navmesh.NavmeshError` for the removal of a chunk that is not there and when nothing
+        walkable is left, `RuntimeInputError` for what is no mapping or no time, and in an open world, which
+        changes by `keep_around` and `players`; the world is then as it was. What only turns out when the
+        change is worked out, such as that nothing walkable is left, `step` raises before the tick for which
+        it is due; that change is dropped, and the world can be stepped on.
         """
         if self._streaming is not None:
             raise RuntimeInputError(

@@ -1,9 +1,11 @@
 """What becomes of a person that falls, from losing its balance until it goes on."""
 
-from locomotion import Human
-from locomotion.body_events import Arrived, Fell, GotUp
+import pytest
+
+from locomotion import Ground, Human
+from locomotion.body_events import Arrived, Fell, GotUp, LostGround
 from locomotion.human.human import STRAYED
-from tests.locomotion.recovery.falling import go_on, push_over
+from tests.locomotion.recovery.falling import WAY, go_on, push_over
 
 
 def test_goes_on_to_its_goal_after_a_fall():
@@ -33,3 +35,32 @@ def test_without_that_a_fall_is_the_end():
     for _ in range(150):
         human.tick()
     assert human.status == "fallen" and human.held
+
+
+@pytest.mark.parametrize("gets_up", [True, False])
+def test_who_falls_off_the_level_is_told_once(gets_up):
+    corners = [[-3.0, -3.0, 0.0], [3.0, -3.0, 0.0], [3.0, 3.0, 0.0], [-3.0, 3.0, 0.0]]
+    human = Human(Ground.from_arrays(corners, [[0, 1, 2], [0, 2, 3]]), clearing=(), gets_up=gets_up)
+    human.reset((0.0, 0.0, 0.0), 0.0)
+    human.follow(WAY, 1.2)
+    go_on(human, 20.0)
+    assert human.status == "fallen" and human.position[2] > -10.0, "soon"
+    for _ in range(150):
+        human.tick()
+    assert human.held
+    told = [type(event) for event in human.events]
+    assert told[1:] == ([Fell, LostGround] if gets_up else [Fell])
+    if gets_up:
+        assert human.events[-1].reason == "it has fallen off the level"
+
+
+def test_who_has_not_got_up_after_two_minutes_stays_down():
+    human = Human(None, clearing=(), gets_up=True)
+    push_over(human, 1.6, 1.2)
+    go_on(human, 5.0, Fell)
+    human.fours.fell_at -= 12000.0
+    for _ in range(200):
+        human.tick()
+    assert human.status == "fallen" and human.held
+    human.reset((0.0, 0.0, 0.0), 0.0)
+    assert human.status == "standing" and not human.fours.active

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from locomotion.body.person import JOINT_NAMES
-from locomotion.recovery.postures import mirrored, posture
+from locomotion.recovery.postures import mirrored, move, posture
 
 
 def test_a_name_without_a_side_is_for_both():
@@ -28,3 +28,10 @@ def test_the_mirror_swaps_sides_and_leans_the_other_way():
     assert np.allclose(
         mirrored(there), posture(waist_roll=-10, neck_yaw=-20, neck_pitch=30, left_hip_flexion=40)
     )
+
+
+def test_moves_from_one_posture_to_another():
+    begun, target, there = np.zeros(39), posture(elbow_flexion=90), np.empty(39)
+    for share, done in ((-1.0, 0.0), (0.0, 0.0), (0.5, 0.5), (1.0, 1.0), (2.0, 1.0)):
+        move(begun, target, share, there)
+        assert np.allclose(there, done * target)

@@ -9,6 +9,7 @@ import pytest
 from locomotion import Human
 from locomotion.body.person import STEPS_PER_TICK
 from locomotion.body_events import Fell
+from locomotion.recovery.layout import SEEN_LIMBS
 from locomotion.recovery.scrambling import lie_of, steeper
 from tests.locomotion.recovery.falling import go_on, plane
 
@@ -53,6 +54,24 @@ def test_the_lie_of_the_ground_is_its_gradient(slope):
     found = np.empty(2)
     lie_of(plane(slope).lookup, 3.0, -2.0, 3.0 * slope, found)
     assert found == pytest.approx([slope, 0.0], abs=1e-9)
+
+
+@pytest.mark.parametrize("place", [(39.9, 3.0), (-39.7, 3.0), (3.0, 39.9), (3.0, -39.5)])
+def test_the_lie_of_the_ground_beside_a_rim_is_its_gradient(place):
+    found, (x, y) = np.empty(2), place
+    lie_of(plane(0.7).lookup, x, y, 0.7 * x, found)
+    assert found == pytest.approx([0.7, 0.0], abs=1e-9)
+
+
+@pytest.mark.parametrize("place", [(39.6, 0.0), (0.0, 39.65), (-39.6, 39.6)])
+def test_hands_and_feet_hold_on_beside_a_rim(place):
+    human, start = Human(plane(0.8), clearing=(), gets_up=True), np.array([*place, 0.8 * place[0]])
+    human.reset(start, 0.0)
+    limbs = human.fours.memory[SEEN_LIMBS].reshape(4, 3)
+    assert (np.abs(limbs[:, :2]) <= 40.0).all()
+    for _ in range(500):
+        human.tick()
+    assert human.fours.borne and np.linalg.norm(human.position - start) < 0.35
 
 
 def test_only_ground_that_is_steep_somewhere_near_is_steeper():

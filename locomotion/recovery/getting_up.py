@@ -191,15 +191,16 @@ def get_up_tick(ground, memory, qpos, qvel, ctrl):
             _go_on(memory, REACHING if front < _ON_FRONT else ROLLING, qpos[7:])
     elif mode == ROLLING:
         # in a notch nobody gets over who does not dare to roll on: after a try to both sides it does
-        careful = steep and memory[TRIES] % 4.0 < 2.0
+        careful = steep and memory[TRIES] % 6.0 < 2.0
+        gathered = _TUCK if memory[TRIES] % 6.0 >= 4.0 else _GATHERED  # feet that are caught come free
         over = _OVER[1 if careful else 0, int(memory[ROLL_SIDE])]
         # arms and legs that are spread or bent keep it from rolling; where it is steep, from rolling down
         if not careful:
             clock -= _GATHER_TIME
         if clock <= 0.0:
-            move(begun, _GATHERED, 1.0 + clock / _GATHER_TIME, ctrl)
+            move(begun, gathered, 1.0 + clock / _GATHER_TIME, ctrl)
         elif clock <= _SWING_TIME:
-            move(begun if careful else _GATHERED, over[0], clock / _SWING_TIME, ctrl)
+            move(begun if careful else gathered, over[0], clock / _SWING_TIME, ctrl)
         else:
             move(over[0], over[1], (clock - _SWING_TIME) / _FOLLOW_TIME, ctrl)
         # where it is steep, it stops as soon as it is on its front, or it rolls on

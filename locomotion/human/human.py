@@ -387,8 +387,10 @@ class Human(Person):
             if lookahead is not None:
                 lookahead.be_surprised()
             self._tick()
-        if self.pushed_until and self.ticks >= self.pushed_until:
-            self.data.xfrc_applied[self.index.bodies["waist"]] = 0.0
+        if self.pushed_until:
+            self.on_feet.catch(self.simulation)
+            if self.ticks == self.pushed_until:
+                self.data.xfrc_applied[self.index.bodies["waist"]] = 0.0
             if self.ticks >= self.pushed_until + _SWAYS:
                 self.pushed_until = 0
         if lookahead is not None:

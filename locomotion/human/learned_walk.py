@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from locomotion.body.person import PersonIndex
 from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.kernel import Parts, feel, new_memory
+from locomotion.gaits.policy.law import LIFT_OFF
 from locomotion.gaits.policy.level_ground import is_level, is_level_around
 from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.gaits.policy.stand import stand_still
@@ -136,6 +137,12 @@ class LearnedWalk:
         """Move in its own style from now on, or as the usual person: planned gaits take over from that more
         surely."""
         self._state[at.STYLE] = self.memory[OWN_STYLE] if shows else 0.0
+
+    def step(self) -> None:
+        """Make steps from now on until it can stand again, the first with the foot that bears less."""
+        right, left = self._felt[at.FORCES].reshape(2, 2).sum(axis=1).tolist()
+        self._state[at.RUNNING], self._state[at.RESTED] = 1.0, 0.0
+        self._state[at.PHASE] = LIFT_OFF + 0.5 * (left > right)
 
     def leave(self) -> None:
         """Something else moves the person now."""

@@ -84,7 +84,7 @@ _TURN_ROUND, _TURNING, _MOVES = 2.4, 0.5, 0.4
 # [rad] off its way up to which the learned walk turns on its way, [m/s] of it meanwhile and at least
 _NOTHING = np.zeros(0)
 _UPRIGHT = 0.8  # [m] of the centre of mass over the lower foot of one that stands
-_CALM = 0.1  # [m/s] of one that may stand as learned
+_CALM, _THROWN = 0.1, 0.12  # [m/s] of one that may stand as learned, and that has been thrown off that
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 
 
@@ -222,6 +222,11 @@ class OnFeet:
         """Whether a foot has just come down on steep ground or stairs, and it is strained, or was at the step
         before."""
         return self.on_uneven_ground and self.begins_step and bool(self.walk[STRAINS].max() > STRAINED)
+
+    def catch(self, body: Simulation) -> None:
+        """Behind a push: who has been thrown off its learned stand makes steps at once, before it tips over."""
+        if self.learned is not None and self.learned.stands and body.ground_speed > _THROWN:
+            self.learned.step()
 
     def vary_step(self, longer: Sequence[float]) -> None:
         """Lengthen the transfer and the swing of the step that has just begun [s]."""

@@ -31,7 +31,7 @@ from locomotion.skills.run_up import RunUp
 
 __all__ = ["Person"]
 
-_SETTLING = 600  # ticks for a person that has stopped walking to come to rest
+_SETTLING = 900  # ticks for a person that has stopped walking to come to rest
 _FALL_TICKS = 100  # ticks for which a fallen body is simulated before it is held
 _HEMMED_IN = 9.0  # [m] before an obstacle in which it may not change to a walk
 _SOON_WALKED, _SOON_RUN, _SOON_SLOWS = 2.5, 4.0, 5.0

@@ -74,7 +74,7 @@ from locomotion.gaits.policy.motion import Motion
 
 __all__ = [
     "ACCELERATION", "AT_REST", "BEARING", "BEARS", "BEGINS_AT", "BEGINS_WITHIN", "BOTH_BEAR", "BRAKING",
-    "CALM", "CHANGE_SHARE", "CREEPS", "ENDS_TURNING", "FACING", "FASTEST_WALK", "FEET_OFF", "FIRST_STEPS",
+    "CALM", "CATCHES", "CHANGE_SHARE", "CREEPS", "ENDS_TURNING", "FACING", "FASTEST_WALK", "FEET_OFF", "FIRST_STEPS",
     "LAG_SHARE", "LATER", "LIFT_OFF", "MOST_AHEAD", "MOST_ASKEW", "MOST_BEHIND", "MOST_LATE", "MOST_MISS",
     "MOST_TRIM", "MOST_TWIST", "PENDULUM", "QUICKENS", "QUICKENS_FROM", "REACH", "REST_TRIM",
     "REST_TRIM_ENDS", "REST_TRIM_RATE", "RUNS_FROM", "RUN_ACCELERATION", "RUN_BRAKING", "RUN_SIDEWAYS",
@@ -117,10 +117,13 @@ it within so much, and turns no more than that; and how far from what is asked c
 TRIM_RATE, MOST_TRIM, TRIM_IN_USE = 0.5, 0.15, 0.4
 """Part of the error of the speed that is added to it, per second, and the share of the speed that is added at
 most, first while the policy is learned, then in worlds."""
-REST_TRIM, REST_TRIM_RATE, REST_TRIM_ENDS, CREEPS = 0.35, 1.5, 0.4, 0.1
-"""[m/s] that is added at most for who is to stand, lest it creeps away as it steps in place; its rate; [m/s]
-told, from which on nothing of that is; and [m/s] low-passed, up to which a body creeps. One that a push has
-made faster is not told to walk against it: it would set its feet down on the wrong side."""
+REST_TRIM, REST_TRIM_RATE, REST_TRIM_ENDS = 0.35, 1.5, 0.4
+"""[m/s] that is added at most for who is to stand, lest it creeps away as it steps in place; its rate; and
+[m/s] told, from which on nothing of that is."""
+CREEPS, CATCHES = 0.1, 1.5
+"""[m/s] low-passed, up to which a body creeps, and [s] of steps in place after which a faster one does, too.
+One that a push has just made fast is not told to walk against it: it would set its feet down on the wrong
+side."""
 MOST_TWIST, MOST_BEHIND = 0.45, 0.4
 """[rad] that the heading is off the body's at most: it waits for a body that does not turn as told, and
 follows one that is thrown round. [m/s] that the body, low-passed, may be too slow; beyond that the speed
@@ -140,7 +143,7 @@ CALM = 0.2
 """[m/s] low-passed, below which it may stand, if also:"""
 BEARS, FEET_OFF = 0.12, (0.1, 0.13)
 """each foot bears this share of the weight, and is this near to where it stands: [m] ahead and aside."""
-MOST_MISS, REACH = 0.5, 0.6
+MOST_MISS, REACH = 0.8, 1.1
 """Where the body would come to rest, as a share of how far the feet reach: up to which it may begin to stand,
 and above which a person that stands makes a step."""
 PENDULUM = 3.3
@@ -380,6 +383,7 @@ def advance(
     memory[:, CHANGE] += CHANGE_SHARE * (change / POLICY_DT - memory[:, CHANGE])
     slow = np.clip(1.0 - memory[:, TOLD] / REST_TRIM_ENDS, 0.0, 1.0) * memory[:, RUNNING]
     creeps = np.hypot(memory[:, LAG_AHEAD] + memory[:, SPEED], memory[:, LAG_LEFT]) < CREEPS
+    creeps |= memory[:, RESTED] > CATCHES
     slow *= to_stand & creeps & steadies
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
     trim = memory[:, TRIM] + pull * POLICY_DT * (memory[:, TOLD] - v[:, 0])

@@ -36,9 +36,7 @@ from locomotion.gaits.policy.law import (
     BOTH_BEAR,
     BRAKING,
     CALM,
-    CATCHES,
     CHANGE_SHARE,
-    CREEPS,
     ENDS_TURNING,
     FACING,
     FASTEST_WALK,
@@ -237,9 +235,7 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
     memory[at.TOLD] += change
     memory[at.CHANGE] += CHANGE_SHARE * (change / at.POLICY_DT - memory[at.CHANGE])
     slow = min(max(1.0 - memory[at.TOLD] / REST_TRIM_ENDS, 0.0), 1.0) * memory[at.RUNNING]
-    creeps = math.hypot(memory[at.LAG_AHEAD] + memory[at.SPEED], memory[at.LAG_LEFT]) < CREEPS
-    creeps = creeps or memory[at.RESTED] > CATCHES
-    slow = slow if to_stand and creeps else 0.0
+    slow = slow if to_stand else 0.0
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
     trim = memory[at.TRIM] + pull * at.POLICY_DT * (memory[at.TOLD] - ahead)
     if fast and not steady:

@@ -74,7 +74,7 @@ from locomotion.gaits.policy.motion import Motion
 
 __all__ = [
     "ACCELERATION", "AT_REST", "BEARING", "BEARS", "BEGINS_AT", "BEGINS_WITHIN", "BOTH_BEAR", "BRAKING",
-    "CALM", "CATCHES", "CHANGE_SHARE", "CREEPS", "ENDS_TURNING", "FACING", "FASTEST_WALK", "FEET_OFF", "FIRST_STEPS",
+    "CALM", "CHANGE_SHARE", "ENDS_TURNING", "FACING", "FASTEST_WALK", "FEET_OFF", "FIRST_STEPS",
     "LAG_SHARE", "LATER", "LIFT_OFF", "MOST_AHEAD", "MOST_ASKEW", "MOST_BEHIND", "MOST_LATE", "MOST_MISS",
     "MOST_TRIM", "MOST_TWIST", "PENDULUM", "QUICKENS", "QUICKENS_FROM", "REACH", "REST_TRIM",
     "REST_TRIM_ENDS", "REST_TRIM_RATE", "RUNS_FROM", "RUN_ACCELERATION", "RUN_BRAKING", "RUN_SIDEWAYS",
@@ -119,11 +119,7 @@ TRIM_RATE, MOST_TRIM, TRIM_IN_USE = 0.5, 0.15, 0.4
 most, first while the policy is learned, then in worlds."""
 REST_TRIM, REST_TRIM_RATE, REST_TRIM_ENDS = 0.35, 1.5, 0.4
 """[m/s] that is added at most for who is to stand, lest it creeps away as it steps in place; its rate; and
-[m/s] told, from which on nothing of that is."""
-CREEPS, CATCHES = 0.1, 1.5
-"""[m/s] low-passed, up to which a body creeps, and [s] of steps in place after which a faster one does, too.
-One that a push has just made fast is not told to walk against it: it would set its feet down on the wrong
-side."""
+[m/s] from which on nothing of that is."""
 MOST_TWIST, MOST_BEHIND = 0.45, 0.4
 """[rad] that the heading is off the body's at most: it waits for a body that does not turn as told, and
 follows one that is thrown round. [m/s] that the body, low-passed, may be too slow; beyond that the speed
@@ -382,9 +378,7 @@ def advance(
     memory[:, TOLD] += change
     memory[:, CHANGE] += CHANGE_SHARE * (change / POLICY_DT - memory[:, CHANGE])
     slow = np.clip(1.0 - memory[:, TOLD] / REST_TRIM_ENDS, 0.0, 1.0) * memory[:, RUNNING]
-    creeps = np.hypot(memory[:, LAG_AHEAD] + memory[:, SPEED], memory[:, LAG_LEFT]) < CREEPS
-    creeps |= memory[:, RESTED] > CATCHES
-    slow *= to_stand & creeps & steadies
+    slow *= to_stand & steadies
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
     trim = memory[:, TRIM] + pull * POLICY_DT * (memory[:, TOLD] - v[:, 0])
     trim = np.where(fast & ~steady, memory[:, TRIM] * (1.0 - UNWINDS), trim)

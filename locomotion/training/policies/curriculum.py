@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-__all__ = ["CATCHING", "RUNNING", "STANDING", "WALKING", "Stage"]
+__all__ = ["RUNNING", "STANDING", "WALKING", "Stage"]
 
 
 @dataclass(frozen=True)
@@ -115,15 +115,3 @@ STANDING = (
     ),
 )  # fmt: skip
 """Standing after the walk came to rest."""
-
-CATCHING = (
-    Stage(
-        "thrown off a stand", 10_000_000, (0.3, 2.2), turn=1.3, push=300.0, slope=0.05, stand=0.3,
-        from_starts=0.5, changes=2.5, waits=False, noise=(0.1, 0.075), fall=40.0, longest=500,
-        weights={
-            "load": 0.6, "rise": 0.5, "impact": 0.0, "blow": -0.5, "slip": -2.0, "change": -0.1,
-            "nears": 0.3, "catches": 0.3,
-        },
-    ),
-)  # fmt: skip
-"""The walk once more, with softer steps, and with people whom a push has just thrown off their stand."""

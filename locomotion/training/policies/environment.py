@@ -38,7 +38,7 @@ from locomotion.training.policies.figure import Figure
 from locomotion.training.policies.reference import Reference, quaternions
 from locomotion.training.policies.rewards import Moment, rewards, sway_off, total
 
-__all__ = ["Environment", "Outcome", "Starts", "motion_of", "together", "where_it_ended"]
+__all__ = ["Environment", "Outcome", "Starts", "motion_of", "where_it_ended"]
 
 THREADS = 2
 _STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
@@ -86,17 +86,6 @@ class Starts:
     memory: NDArray[np.float64]
     physics: NDArray[np.float64]
     sensed: NDArray[np.float64]
-
-
-def together(first: Starts, second: Starts | None) -> Starts:
-    """As many states of one kind as of the other: some of the rarer ones more than once."""
-    if second is None:
-        return first
-    longest = np.arange(max(len(first.memory), len(second.memory)))
-    some = [
-        {name: rows[longest % len(rows)] for name, rows in vars(each).items()} for each in (first, second)
-    ]
-    return Starts(**{name: np.concatenate([each[name] for each in some]) for name in some[0]})
 
 
 class Environment:

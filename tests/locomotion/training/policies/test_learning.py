@@ -9,7 +9,7 @@ from locomotion.gaits.policy.law import LIFT_OFF
 from locomotion.gaits.policy.layout import ACTIONS, CHANGE, JOINTS, LAG_AHEAD, PHASE, RESTED
 from locomotion.gaits.policy.layout import RUNNING as GOES_ON
 from locomotion.training.policies.curriculum import RUNNING, STANDING, WALKING
-from locomotion.training.policies.environment import Environment, Starts, together, where_it_ended
+from locomotion.training.policies.environment import Environment, where_it_ended
 from locomotion.training.policies.learning import LENGTH, Learning
 
 PEOPLE = 6
@@ -120,14 +120,6 @@ def test_who_could_stand_steps_on_while_the_walk_is_learned(reference):
     standing = Environment(reference, STANDING[0], 40, seed=0, starts=found)
     taken = (standing.physics[:, None] == found.physics[None]).all(axis=2).any(axis=1)
     assert 0.3 < taken.mean() < 1.0
-
-
-def test_states_of_two_kinds_are_as_many_of_each():
-    few, many = (Starts(*(np.full((n, k), float(n)) for k in (2, 3, 4))) for n in (3, 7))
-    both = together(few, many)
-    assert [values.shape for values in vars(both).values()] == [(14, 2), (14, 3), (14, 4)]
-    assert (both.memory[:, 0] == 3.0).sum() == (both.sensed[:, 0] == 7.0).sum() == 7
-    assert together(many, None) is many
 
 
 def test_a_stand_is_over_for_who_has_to_step(reference):

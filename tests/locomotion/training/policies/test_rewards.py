@@ -70,14 +70,6 @@ def test_an_impact_above_one_and_a_half_body_weights(same):
     assert rewards(replace(same, forces=forces))["impact"][0] == pytest.approx(0.9**2)
 
 
-def test_both_feet_together_above_one_and_two_fifths_of_the_weight(same):
-    forces = same.forces.copy()
-    forces[0, 2, [0, 2]] = 1.0 * BODY_WEIGHT  # a body weight under each foot, in one step
-    terms = rewards(replace(same, forces=forces))
-    assert terms["blow"][0] == pytest.approx(0.6**2)
-    assert terms["impact"][0] == 0.0
-
-
 def test_who_runs_may_land_harder(same):
     forces, memory = same.forces.copy(), same.memory.copy()
     forces[0, 2, :2], memory[0, FAST] = 1.6 * BODY_WEIGHT, 1.0

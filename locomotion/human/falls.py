@@ -23,13 +23,15 @@ _LOOKS = 20  # ticks between checks whether one on hands and feet can walk on
 
 
 def fall(person: Person, gets_up: bool) -> None:
-    """The person has lost its balance; ``gets_up``: whether it gets up again."""
+    """The person has lost its balance; ``gets_up``: whether it gets up again if there is ground."""
     let_go_both(person.data)
     person.on_feet.landing.forget()
     on_way = person.status in MOVING
     speed, slope = person.on_feet.speed, float(person.follower.memory[SLOPE_HERE])
     person.end("fallen", Fell(person.time, person.point, speed, slope, person.arc_length))
-    if gets_up:
+    if gets_up and not person.simulation.over_ground:
+        person.events.append(_off_level(person))
+    elif gets_up:
         person.status, person.on_feet.slowing, person.on_feet.brakes = "getting up", 0.0, False
         person.on_feet.walk[:] = new_walk()
         person.on_feet.stop_learned()
@@ -44,7 +46,7 @@ def tick_on_all_fours(person: Person, gets_up: bool) -> None:
     follower = person.follower if fours.on_way > 0.0 and person.status in MOVING else None
     if person.ticks % _LOOKS == 0:
         if person.status != "fallen" and _is_off_level(person):
-            person.end("fallen", LostGround(person.time, person.point, "it has fallen off the level"))
+            person.end("fallen", _off_level(person))
         fours.look(person.ground, person.position, follower)
     fours.steer(follower, person.control[controller.COM], person.ticks, person.command)
     fours.tick(lookup, person.command, person.data, fours.gentle > 0.0)
@@ -66,6 +68,10 @@ def tick_on_all_fours(person: Person, gets_up: bool) -> None:
             person.status, person.ended_at = "fallen", person.ticks
     elif follower is not None and follower.path is not None and person.status in MOVING and not got_up:
         notice(person)  # except one that has just got up, which may be given another path
+
+
+def _off_level(person: Person) -> LostGround:
+    return LostGround(person.time, person.point, "it has fallen off the level")
 
 
 def _is_off_level(person: Person) -> bool:

@@ -191,8 +191,9 @@ def get_up_tick(ground, memory, qpos, qvel, ctrl):
             _go_on(memory, REACHING if front < _ON_FRONT else ROLLING, qpos[7:])
     elif mode == ROLLING:
         # in a notch nobody gets over who does not dare to roll on: after a try to both sides it does
-        careful = steep and memory[TRIES] % 6.0 < 2.0
-        gathered = _TUCK if memory[TRIES] % 6.0 >= 4.0 else _GATHERED  # feet that are caught come free
+        tries = memory[TRIES] % 6.0
+        careful = steep and tries < 2.0
+        gathered = _TUCK if tries >= 4.0 else _GATHERED  # feet that are caught come free
         over = _OVER[1 if careful else 0, int(memory[ROLL_SIDE])]
         # arms and legs that are spread or bent keep it from rolling; where it is steep, from rolling down
         if not careful:
@@ -203,7 +204,7 @@ def get_up_tick(ground, memory, qpos, qvel, ctrl):
             move(begun if careful else gathered, over[0], clock / _SWING_TIME, ctrl)
         else:
             move(over[0], over[1], (clock - _SWING_TIME) / _FOLLOW_TIME, ctrl)
-        # where it is steep, it stops as soon as it is on its front, or it rolls on
+        # where it is steep, it stops as soon as it is on its front; otherwise it would roll on
         comes_over = steep and lies_on_front(ground, memory)[0] < _ON_FRONT
         if clock > _SWING_TIME + _FOLLOW_TIME or (comes_over and clock > _SWING_TIME):
             _go_on(memory, REACHING, ctrl)
@@ -215,13 +216,13 @@ def get_up_tick(ground, memory, qpos, qvel, ctrl):
                 memory[TRIES] += 1.0
                 _go_on(memory, LIMP, qpos[7:])
             else:
-                _turn_or_tuck(ground, memory, 0.0)
+                _turn_or_tuck(ground, memory, steep, 0.0)
     elif mode == PIVOTING:
         pivot(memory, ctrl)
         if lies_on_front(ground, memory)[0] > _OFF_FRONT:
             _go_on(memory, LIMP, qpos[7:])
         elif clock > CONTROL_DT and clock % ROUND < CONTROL_DT:
-            _turn_or_tuck(ground, memory, clock)
+            _turn_or_tuck(ground, memory, steep, clock)
     else:
         # where it is steep, knees that come far up tip it over
         tuck = _TUCK_STEEP if steep else _TUCK
@@ -234,10 +235,11 @@ def get_up_tick(ground, memory, qpos, qvel, ctrl):
 
 
 @allocating_kernel
-def _turn_or_tuck(ground, memory, turned):
-    """The body lies on its front, arms and legs spread, and has ``turned`` for so many seconds."""
+def _turn_or_tuck(ground, memory, steep, turned):
+    """The body lies on its front, arms and legs spread, where it is ``steep`` or not, and has ``turned`` for
+    so many seconds."""
     off = off_uphill(ground, memory)
-    if steepness(ground, memory) < _ROLLS or abs(off) < PIVOTS or turned > _TURN_MOST:
+    if not steep or abs(off) < PIVOTS or turned > _TURN_MOST:
         _go_on(memory, TUCKING, SPREAD)
         return
     begin_round(memory, off)

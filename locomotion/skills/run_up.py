@@ -124,8 +124,8 @@ class RunUp:
         """After the run's tick: plan the run-up at each stance switch, start the skill at its mark, tick it.
 
         arc: length [m] of the path behind the body; state: the running controller's; grip: coefficient of
-        friction of the ground. Returns a `TakeOff` when
-        a skill begins, and the obstacle when it has been cleared.
+        friction of the ground. Returns a `TakeOff` when a skill begins, and the obstacle when it has been
+        cleared.
         """
         obstacle, began = self.ahead, None
         if obstacle is None:

@@ -15,6 +15,7 @@ from locomotion.gaits.walk.layout import WALK_HEADING, WALK_STANCE, WALK_STEPS, 
 from locomotion.gaits.walk.skill import RISING, STEADYING_SPEED, load_walk_skill, rise_walking
 from locomotion.ground.ground import plane_lookup
 from locomotion.paths.command import HEADING_ASKED, SPEED_ASKED
+from locomotion.preconditions.moments import make_slippery
 from locomotion.skills.drop_roll import kernel as dr
 from locomotion.skills.learned_skill import LawTables
 from locomotion.training.skills.jump_trial import StartState
@@ -97,7 +98,7 @@ class DropSimulator:
     def become_slippery(self, friction: float, rising: np.ndarray) -> None:
         """Give all that is touched this coefficient of ``friction``; ``rising``: the walk's gains (5,
         len(GAINS)) while the person comes up."""
-        self.model.geom_friction[:, 0] = friction
+        make_slippery(self.model, friction)
         self.rising = rising
 
     def place(self, edge: float, height: float) -> None:

@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.limbs import Limbs
 from locomotion.body.person import CONTROL_DT, STEPS_PER_TICK, PersonIndex
 from locomotion.gaits.policy.kernel import Parts, feel
 from locomotion.gaits.policy.layout import FELT_SIZE, FORCES, SOLES
@@ -16,16 +17,18 @@ from locomotion.human.human import Human
 from locomotion.training.policies.trial import PolicyTrial
 from surefoot.kernels import allocating_kernel
 
-__all__ = ["Record", "learned_walk", "planned_walk", "tick_in_steps"]
+__all__ = ["Record", "learned_walk", "planned_walk", "thigh_angles", "tick_in_steps"]
 
 _STANDS, _WARM_UP = 1.0, 5.0  # [s] that do not count
+_FALLEN = 0.6  # [m] height of the root
 
 
 @dataclass(frozen=True)
 class Record:
     """n physics steps: time step [s]; com (n, 3); angles (n, 39) [rad]; thighs (n, 2) from the vertical
     [rad]; forces (n, 2) under the right and the left foot [N]; soles (n, 6, 3); slid (n, 2), how far what
-    bears slid [m]; depth (n,) of the deepest contact [m]; poses (ticks, nbody, 7), one per tick; fell."""
+    bears slid [m]; depth (n,) of the deepest contact [m]; limbs: how deep limbs were in each other [m], by
+    name; fell."""
 
     step: float
     com: NDArray[np.float64]
@@ -35,8 +38,16 @@ class Record:
     soles: NDArray[np.float64]
     slid: NDArray[np.float64]
     depth: NDArray[np.float64]
-    poses: NDArray[np.float64]
+    limbs: dict[str, float]
     fell: bool
+
+
+def thigh_angles(data: mujoco.MjData, thighs: list[int]) -> NDArray[np.float64]:
+    """Angles of the ``thighs`` (body ids) from the vertical, forward as the pelvis faces, [rad]."""
+    w, x, y, z = data.qpos[3:7]
+    yaw = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    down = -data.xmat[thighs].reshape(-1, 3, 3)[:, :, 2]
+    return np.arctan2(down[:, 0] * np.cos(yaw) + down[:, 1] * np.sin(yaw), -down[:, 2])
 
 
 @allocating_kernel
@@ -69,28 +80,24 @@ class _Recorder:
         self.model, self.data = model, data
         self.parts, self.felt = Parts(PersonIndex.of(model), model), np.zeros(FELT_SIZE)
         self.rows: dict[str, list] = {
-            name: [] for name in ("com", "angles", "thighs", "forces", "soles", "slid", "depth", "poses")
+            name: [] for name in ("com", "angles", "thighs", "forces", "soles", "slid", "depth")
         }
+        self._limbs = Limbs(model)
         self._thighs = [model.body(f"{side}_thigh").id for side in ("right", "left")]
 
     def note(self) -> None:
         """Note the state after a physics step."""
         data, rows = self.data, self.rows
-        if len(rows["com"]) % STEPS_PER_TICK == 0:
-            rows["poses"].append(np.hstack([data.xpos, data.xquat])[1:])
         feel(self.parts, data, self.felt)
         rows["com"].append(data.subtree_com[1].copy())
         rows["angles"].append(data.qpos[7:46].copy())
-        w, x, y, z = data.qpos[3:7]
-        yaw = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-        down = -data.xmat[self._thighs].reshape(-1, 3, 3)[:, :, 2]
-        ahead = down[:, 0] * np.cos(yaw) + down[:, 1] * np.sin(yaw)
-        rows["thighs"].append(np.arctan2(ahead, -down[:, 2]))
+        rows["thighs"].append(thigh_angles(data, self._thighs))
         rows["forces"].append(self.felt[FORCES].reshape(2, 2).sum(axis=1))
         rows["soles"].append(self.felt[SOLES].reshape(6, 3).copy())
         slid, depth = self._contacts()
         rows["slid"].append(slid)
         rows["depth"].append(depth)
+        self._limbs.note(data)
 
     def _contacts(self) -> tuple[NDArray[np.float64], float]:
         """How far the bearing contacts of each foot slid in this step, weighted by their forces; the
@@ -102,11 +109,10 @@ class _Recorder:
         )  # fmt: skip
         return slid * self.model.opt.timestep, depth
 
-    def record(self, skip: int, fell: bool) -> Record:
-        """All but the first ``skip`` steps."""
-        arrays = {name: np.array(rows[skip:]) for name, rows in self.rows.items() if name != "poses"}
-        poses = np.array(self.rows["poses"][skip // STEPS_PER_TICK :])
-        return Record(self.model.opt.timestep, **arrays, poses=poses, fell=fell)
+    def record(self, fell: bool) -> Record:
+        """What was noted."""
+        arrays = {name: np.array(rows) for name, rows in self.rows.items()}
+        return Record(self.model.opt.timestep, **arrays, limbs=self._limbs.deepest(), fell=fell)
 
 
 def learned_walk(skill: PolicySkill, speed: float, seconds: float, warm_up: float = _WARM_UP) -> Record:
@@ -116,7 +122,7 @@ def learned_walk(skill: PolicySkill, speed: float, seconds: float, warm_up: floa
     trial.go(_STANDS)
     trial.asked[0] = speed
     held = trial.go(warm_up) and trial.go(seconds, recorder.note)
-    return recorder.record(0, not held)
+    return recorder.record(not held)
 
 
 def tick_in_steps(human: Human, twin: mujoco.MjData, note: Callable[[], None]) -> None:
@@ -142,8 +148,11 @@ def planned_walk(speed: float, seconds: float, warm_up: float = _WARM_UP) -> Rec
     human.follow(np.array([[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0]]), speed)
     data = mujoco.MjData(human.model)
     recorder = _Recorder(human.model, data)
-    for _ in range(round((warm_up + seconds) / CONTROL_DT)):
-        tick_in_steps(human, data, recorder.note)
-        if human.data.qpos[2] < 0.6:
-            return recorder.record(0, True)
-    return recorder.record(round(warm_up / human.model.opt.timestep), False)
+    for k in range(round((warm_up + seconds) / CONTROL_DT)):
+        if k * CONTROL_DT < warm_up:
+            human.tick()
+        else:
+            tick_in_steps(human, data, recorder.note)
+        if human.data.qpos[2] < _FALLEN:
+            return recorder.record(True)
+    return recorder.record(False)

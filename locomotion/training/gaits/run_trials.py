@@ -12,7 +12,7 @@ __all__ = ["MIDDLE", "TrialKind", "cost", "draw_scenario"]
 MIDDLE = 3.5
 """Speed [m/s] at which training starts."""
 _CAPTURED_SPEED, _CAPTURED_RATE = 5.26, 3.69
-# [m/s], steps per s of the captured run, the constants in equation 8 (`python -m benchmarks.likeness run`)
+# [m/s], steps per s of a captured run, its 66 frames taken for a stride: the constants in equation 8
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ Lines = list[tuple[str, str, str, bool | None]]
 _VERDICT = {True: "yes", False: "NO", None: "-"}
 _CHANGE = 25.0
 """[rad/s] by which a joint's speed may change from one tick to the next, see docs/how-it-works/animals.md."""
-_HEIGHT_OFF, _PITCH_OFF = 0.07, 3.5
+_OFF = {"level": (0.015, 0.5), "slope": (0.04, 2.0)}
 """Of its own height, and [deg], by which hips, shoulders and trunk may leave the range of even speeds."""
 _FLEXION = 15.0
 """[deg] of the back over a stride, in a gallop at top speed."""
@@ -118,12 +118,13 @@ def _gait_changes(found: dict[str, Any]) -> Lines:
             f"{100 * row['lowest_bone']:.2f} cm, slide {1e3 * row['slide']:.2f} mm, joints "
             f"{row['joint_change']:.1f} rad/s ({row['joint_change_usual']:.1f} at even speeds)"
         )
+        height, pitch = _OFF["slope" if row["slope"] else "level"]
         held = (
-            row["height_off"] <= _HEIGHT_OFF and row["pitch_off_deg"] <= _PITCH_OFF
+            row["height_off"] <= height and row["pitch_off_deg"] <= pitch
             and row["lowest_bone"] >= -1e-3 and row["slide"] <= 1e-3
             and row["joint_change"] <= 1.1 * row["joint_change_usual"]
         )  # fmt: skip
-        wanted = f"<= {100 * _HEIGHT_OFF:.0f} %, {_PITCH_OFF:.0f} deg"
+        wanted = f"<= {100 * height:.1f} %, {pitch:.1f} deg"
         lines.append((f"gait changes: {name}, {row['tasks']}", text, wanted, held))
     return lines
 

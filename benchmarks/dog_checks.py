@@ -39,6 +39,9 @@ class GraphPlanner:
             raise NavmeshError(f"no way: {route.status}")
         return smooth_route(route, self.body.smoothing, direction)
 
+    def leads(self, start: np.ndarray, goal: np.ndarray) -> bool:
+        return self.graph.find_path(start, goal, radius=self.body.radius).status == "complete"
+
     def room_to_turn(self, points: np.ndarray, length: float) -> np.ndarray:
         return self.graph.room_to_turn(points, length)
 
@@ -48,6 +51,9 @@ class Straight:
 
     def way(self, start: np.ndarray, goal: np.ndarray, direction: np.ndarray) -> SmoothPath:
         return SmoothPath(np.stack([start, goal]), (), True)
+
+    def leads(self, start: np.ndarray, goal: np.ndarray) -> bool:
+        return True
 
     def room_to_turn(self, points: np.ndarray, length: float) -> np.ndarray:
         return np.ones(len(points), bool)

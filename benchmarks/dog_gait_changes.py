@@ -233,7 +233,7 @@ def compare(body: Body, place: Place, quick: bool, seed: int = 0) -> dict[str, A
     share = (off[:, :2] / height).max(axis=1)
     worst = int(np.argmax(share))
     return {
-        "tasks": len(tasks),
+        "tasks": len(tasks), "slope": place.slope,
         "height_off": float(share[worst]), "height_off_p95": float(np.percentile(share, 95)),
         "worst_task": repr(tasks[worst]),
         "pitch_off_deg": math.degrees(off[:, 2].max()),

@@ -14,7 +14,7 @@ __all__ = ["carry"]
 
 _HEIGHT_HALF_LIFE = 0.07  # [s]
 _STRETCH, _TAUT = 0.90, 0.95  # shares of its length to which a standing leg should, and can, be stretched
-_SWUNG = 0.97  # greatest share of a leg's length in the middle of a swing
+_SWUNG = 1.02  # the same in the middle of a swing: a toe in the air may fall short of its way
 _SOFT = 0.03  # share of a length over which a limit starts to pull the trunk down
 _FAR = math.log1p(math.exp(-4.0))  # so that nothing pulls four times as far from it
 _CROUCH = 0.25  # [1/rad²] lowering of the body with slope
@@ -61,6 +61,10 @@ def _feel_ground(st, pr, feet):
     st[at.SLOPE] += trust * DT / _FEELING * (felt - st[at.SLOPE])
     st[at.GROUND_REAR] = rear_z - slope * rear
     st[at.GROUND_FRONT] = front_z + slope * (far - front)
+    # what is carried follows the ground by a spring, and on an even slope it would lag behind all the time
+    climb = slope * (ax * st[at.RATE] + ay * st[at.RATE + 1]) * DT
+    st[at.CARRIED_REAR] += climb
+    st[at.CARRIED_FRONT] += climb
 
 
 @kernel

@@ -28,7 +28,7 @@ _RAMP, _RAMP_SLOPE, _SHORTEST_RAMP = 0.36, 0.07, 0.14
 # body's way in the swing over the leg's height, and at least
 _HASTE = 4.0  # how much faster than evenly a swing follows a change of its aim
 _STRETCH = 0.90  # share of a leg's length to which it may be stretched when standing
-_SINK = 0.96  # share of its height by which the trunk may sink for a standing foot
+_SINK = 0.97  # share of its height by which the trunk may sink for a standing foot
 _SINK_AHEAD = 0.84  # the same for a foot before it, over which it is yet to come
 _SLACK = 0.12  # [m] above a step that a foot may find ground off the surface it is on
 
@@ -145,6 +145,9 @@ def step_feet(st, pr, gait, pool, ground, origin, feet):
             foot[at.SOFT_AIM : at.SOFT_AIM + 3] = foot[at.AIM : at.AIM + 3]
             foot[at.ARCH] = _arch(foot, ground, origin, pr[at.STEP] + _SLACK)
             foot[at.IN_SWING], foot[at.SWING_FROM] = 1.0, phase
+            # its stance was over between two ticks; a swing that waits for the second trails by up to one
+            if 0.0 <= phase - foot[at.STANCE] < st[at.FREQUENCY_NOW] * DT:
+                foot[at.SWING_FROM] = foot[at.STANCE]
         settled = False
         begun = foot[at.SWING_FROM]
         if phase < begun:

@@ -62,9 +62,9 @@ class Gait(Strict):
     lift: Length
     """Height of the swing."""
     bob: Annotated[float, Ge(0.0), Le(1.0)]
-    """Rise and fall of the trunk, twice a stride, to each side of the middle."""
+    """Rise of the trunk, twice a stride, to each side of the middle, where legs of a pair alternate."""
     rock: Annotated[float, Ge(0.0), Le(1.0)]
-    """Rise and fall of hips and shoulders, once a stride, in a gait whose pairs of legs move together."""
+    """Rise of hips and shoulders, once a stride, where the two legs of a pair move together."""
     back: Back = Back()
 
     @model_validator(mode="after")

@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 
 from locomotion import Ground
+from locomotion.quadruped import layout as at
+from locomotion.quadruped import load_body
+from tests.locomotion.quadruped.bends import follow
 from tests.locomotion.quadruped.scenes import animal_on, bone_toes, floor, plane, quads, run, stairs
 
 
@@ -46,3 +49,18 @@ def test_feet_stand_on_the_real_ground(ground, top):
 
     run(animal, each=look)
     assert animal.status == "arrived" and animal.front[2] == pytest.approx(top, abs=0.02)
+
+
+def test_a_swing_begins_when_its_stance_is_over_and_not_with_the_next_tick():
+    """Else every swing would begin with another delay, and the gallop's trunk would sink for it by chance."""
+    herd, index, _ = follow(load_body("cat"), 5.0, np.array([[0.0, 0, 0], [40.0, 0, 0]]))
+    state, feet, swings = herd.state[index], herd.feet[index], 0
+    while state[at.SPEED] < 4.99:
+        herd.tick()
+    for _ in range(100):
+        stood = feet[:, at.IN_SWING] == 0.0
+        herd.tick()
+        left = stood & (feet[:, at.IN_SWING] > 0.0)
+        swings += left.sum()
+        assert feet[left, at.SWING_FROM] == pytest.approx(feet[left, at.STANCE], abs=0.005)
+    assert swings >= 12

@@ -37,8 +37,8 @@ def test_ranges_come_to_the_kernels_in_radians():
 @pytest.mark.parametrize(
     ("old", "new", "says"),
     [
-        ("flexion_deg: [20, 3.5]", "flexion_deg: [20, 12.5]", "back.flexion_deg at 8 m/s is outside 0 to 90"),
-        ("flexion_deg: [20, 3.5]", "flexion_deg: [20, -3.5]", "back.flexion_deg at 8 m/s is outside 0 to 90"),
+        ("flexion_deg: [19, 3.2]", "flexion_deg: [19, 12.5]", "back.flexion_deg at 8 m/s is outside 0 to 90"),
+        ("flexion_deg: [19, 3.2]", "flexion_deg: [19, -3.2]", "back.flexion_deg at 8 m/s is outside 0 to 90"),
         ("hip_roll_deg: 12.6", "hip_roll_deg: 99", "45"),
         ("nod_deg", "nods_deg", "did you mean"),
         ("sacral: 0.25", "sacral: 1.25", "1"),

@@ -11,12 +11,16 @@ PLACE = {place.name: place for place in PLACES}
 
 
 @pytest.mark.parametrize(
-    ("name", "place"), [("dog", "flat"), ("cat", "flat"), ("horse", "steep uphill"), (str(FOAL), "curve")]
-)
-def test_the_trunk_stays_within_its_gaits_when_they_change(name, place):
-    found = compare(load_body(name), PLACE[place], quick=True)
-    assert found["height_off"] < 0.07, found["worst_task"]
-    assert found["pitch_off_deg"] < 3.5
+    ("name", "place", "share", "degrees"),
+    [
+        ("dog", "flat", 0.005, 0.5), ("cat", "flat", 0.005, 0.5), ("horse", "flat", 0.01, 0.5),
+        (str(FOAL), "curve", 0.02, 0.5), ("horse", "steep uphill", 0.04, 2.0), ("cat", "downhill", 0.04, 2.0),
+    ],
+)  # fmt: skip
+def test_the_trunk_stays_within_its_gaits_when_they_change(name, place, share, degrees):
+    found = compare(load_body(name), PLACE[place], quick=True, seed=61)
+    assert found["height_off"] < share, found["worst_task"]
+    assert found["pitch_off_deg"] < degrees
     assert found["lowest_bone"] > -1e-3 and found["slide"] < 1e-3
     if place == "flat":  # where it goes fastest
         assert found["joint_change"] < 1.1 * found["joint_change_steady"]

@@ -19,7 +19,7 @@ Lines = list[tuple[str, str, str, bool | None]]
 _VERDICT = {True: "yes", False: "NO", None: "-"}
 _CHANGE = 25.0
 """[rad/s] by which a joint's speed may change from one tick to the next, see docs/how-it-works/animals.md."""
-_OFF = {"level": (0.015, 0.5), "slope": (0.04, 2.0)}
+_OFF = {"level": (0.02, 1.0), "slope": (0.06, 2.5)}
 """Of its own height, and [deg], by which hips, shoulders and trunk may leave the range of even speeds."""
 _FLEXION = 15.0
 """[deg] of the back over a stride, in a gallop at top speed."""

@@ -168,7 +168,8 @@ def step_feet(st, pr, gait, pool, ground, origin, feet):
         swings = 1.0 - (st[at.STANDS_FRONT] if leg < 2 else st[at.STANDS_REAR])
         way = st[at.SPEED] * swings / (st[at.FREQUENCY_NOW] * pr[at.HEIGHT_REAR])
         slow = (1.0 - begun) / (foot[at.TEMPO] * swings)
-        ramp = max(_RAMP - _RAMP_SLOPE * way, _SHORTEST_RAMP) / max(slow, 1.0)
+        # one that takes longer sets out the faster, for the trunk does not wait for it
+        ramp = max(_RAMP - _RAMP_SLOPE * way, _SHORTEST_RAMP) / max(slow, 1.0) ** 2
         _swing(foot, done, st[at.LIFT_NOW], ramp)
     return settled
 

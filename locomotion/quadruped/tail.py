@@ -15,6 +15,7 @@ __all__ = ["hang_tail", "swing_tail"]
 _CURVE = 0.18  # [rad] by which each bone points higher than the one before
 _ALONG = 0.6  # of the angle between two spine bones, by which each bone goes on with a bend
 _STIFF, _DAMPING = 2.2, 0.35  # frequency, relative to that of a weight on a string as long; share of critical
+_HELD, _HELD_DAMPING = 6.6, 0.6  # the same up and down, where it is held: in a gallop it goes with the pelvis
 
 
 @kernel
@@ -31,7 +32,7 @@ def hang_tail(st, pr):
 @kernel
 def swing_tail(st, pr, yaw, pitch):
     """One tick behind a pelvis of direction ``yaw`` and tilt ``pitch`` [rad]."""
-    stiff = _STIFF * math.sqrt(9.81 / (3.0 * pr[at.TAIL]))
+    swings = math.sqrt(9.81 / (3.0 * pr[at.TAIL]))
     turned = wrap(yaw - st[at.PELVIS_YAW])
     st[at.PELVIS_YAW] = yaw
     aside, up = tail_sway(st, pr), pr[at.TAIL_RISE] - pitch
@@ -39,14 +40,14 @@ def swing_tail(st, pr, yaw, pitch):
         aside, up = aside + _ALONG * st[at.BEND], up + _CURVE
         own = at.TAIL_YAW + k
         st[own] -= turned
-        st[own], st[own + 3] = _pulled(st[own], st[own + 3], aside, stiff)
+        st[own], st[own + 3] = _pulled(st[own], st[own + 3], aside, _STIFF * swings, _DAMPING)
         aside = st[own]
         own = at.TAIL_UP + k
-        st[own], st[own + 3] = _pulled(st[own], st[own + 3], up, stiff)
+        st[own], st[own + 3] = _pulled(st[own], st[own + 3], up, _HELD * swings, _HELD_DAMPING)
         up = st[own]
 
 
 @kernel(forceinline=True)
-def _pulled(angle, rate, to, stiff):
-    rate += DT * stiff * (stiff * (to - angle) - 2.0 * _DAMPING * rate)
+def _pulled(angle, rate, to, stiff, damping):
+    rate += DT * stiff * (stiff * (to - angle) - 2.0 * damping * rate)
     return angle + DT * rate, rate

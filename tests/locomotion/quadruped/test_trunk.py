@@ -42,6 +42,20 @@ def test_in_the_walk_the_head_nods_twice_a_stride_and_the_hips_roll(name):
     assert found["tail_deg"] > 2.0
 
 
+@pytest.mark.parametrize("name", ["dog", "cat", "horse"])
+def test_in_the_gallop_the_tail_goes_up_and_down_with_the_pelvis_and_its_tip_comes_last(name):
+    body = load_body(name)
+    poses, _ = going(body, 0.8 * body.top_speed, "gallop")
+    names = body_names(body.spine.bones)
+    pelvis, root, tip = (angles(poses[:, names.index(each)])[:, 1] for each in ("pelvis", "tail_1", "tail_3"))
+    assert np.ptp(pelvis) > np.radians(12.0)
+    assert 0.7 * np.ptp(pelvis) < np.ptp(tip) < 1.3 * np.ptp(pelvis)
+    waves = [np.fft.rfft(each - each.mean()) for each in (-pelvis, root, tip)]  # the tail points backwards
+    stride = np.abs(waves[0]).argmax()
+    late = -np.diff(np.unwrap([np.angle(wave[stride]) for wave in waves]))
+    assert (late > 0.2).all() and late[1] > late[0]
+
+
 def test_in_the_gallop_the_head_nods_once():
     assert strides(load_body("dog"), 5.0, "gallop")["nods"] == pytest.approx(1.0, abs=0.1)
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from locomotion.body.person import PersonIndex
 from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.kernel import Parts, feel, new_memory
+from locomotion.gaits.policy.law import RUNS_FROM
 from locomotion.gaits.policy.level_ground import is_level, is_level_around
 from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.gaits.policy.stand import stand_still
@@ -198,7 +199,8 @@ class LearnedWalk:
         far = _RUN_SEES + speed * (_REACTS + speed / (2.0 * RUN_STOPS))
         rows = way.table
         first = round(arc / way.length * (len(rows) - 1))
-        runs = rows[first : first + round(far / path.SPACING), path.GAIT] == path.RUN
+        ahead = rows[first : first + round(far / path.SPACING)]
+        runs = ahead[:, path.SPEED] > RUNS_FROM if self.runs else ahead[:, path.GAIT] == path.RUN
         begin, z = max(arc - _BEHIND, 0.0), float(body.position[2])
         may = runs.any() and is_level(body.lookup, rows, way.length, begin, arc + far, z)
         self.memory[MAY_RUN] = float(may)

@@ -78,7 +78,7 @@ _FAST, _FAST_HASTE = 3.7, 0.8  # [m/s] from the first speed on, only this much a
 _CHANGED = 4.0  # steps after which a change of gait is complete
 _CAME_UP = -1.0  # the step of one that came up from a crouch where it may go on as learned
 _HELD_UP = 12.0  # steps after which a pushed person that has braked need not come to rest
-_GENTLY, _RESTS = 1.2, 1.0  # [m/s^2] of slowing down as learned on its way, and [m] walked at its end
+_GENTLY, _RESTS = 1.7, 0.9  # [m/s^2] of slowing down as learned on its way, and [m] walked at its end
 _RUNS_WITHIN = 0.4  # [rad] off its way with which a run begins
 _TURN_ROUND, _TURNING, _MOVES = 2.4, 0.5, 0.4
 # [rad] off its way up to which the learned walk turns on its way, [m/s] of it meanwhile and at least
@@ -300,10 +300,10 @@ class OnFeet:
         """Whether the learned walk is to run: who does not yet, walks for a moment and turns towards its way
         first."""
         learned = self.learned
-        if learned is None or not (learned.may_run and follower.runs):
+        if learned is None or not learned.may_run:
             return False
         off = math.remainder(command.item(HEADING_ASKED) - self.walk.item(WALK_HEADING), 2.0 * math.pi)
-        return learned.runs or (learned.has_walked and abs(off) < _RUNS_WITHIN)
+        return learned.runs or (follower.runs and learned.has_walked and abs(off) < _RUNS_WITHIN)
 
     def _steer_walk(self, state: NDArray, moving: bool, pace: float, most: float, command: NDArray) -> None:
         """``pace``: share of the wanted speed; ``most``: upper limit [m/s]."""

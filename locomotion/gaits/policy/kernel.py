@@ -68,6 +68,7 @@ from locomotion.gaits.policy.law import (
     SETTLES_WITHIN,
     SETTLING,
     SHIFTING,
+    SHOWN_AHEAD,
     SHOWN_WITHIN,
     SLOWEST_RUN,
     SOLE_AHEAD,
@@ -145,7 +146,8 @@ def _shown_speed(memory):
     if not memory[at.FAST] > 0.0:
         return min(speed, FASTEST_WALK)
     body = speed + memory[at.LAG_AHEAD]
-    return min(max(speed, body - SHOWN_WITHIN), body + SHOWN_WITHIN)
+    ahead = min(max(SHOWN_AHEAD * body, SHOWN_WITHIN), SHOWN_AHEAD)
+    return min(max(speed, body - SHOWN_WITHIN), body + ahead)
 
 
 @kernel

@@ -78,10 +78,11 @@ __all__ = [
     "LAG_SHARE", "LATER", "LIFT_OFF", "MOST_AHEAD", "MOST_ASKEW", "MOST_BEHIND", "MOST_LATE", "MOST_MISS",
     "MOST_TRIM", "MOST_TWIST", "PENDULUM", "QUICKENS", "QUICKENS_FROM", "REACH", "REST_TRIM",
     "REST_TRIM_ENDS", "REST_TRIM_RATE", "RUNS_FROM", "RUN_ACCELERATION", "RUN_BRAKING", "RUN_SIDEWAYS",
-    "RUN_TRIM", "SETTLES_AT", "SETTLES_SLOWING", "SETTLES_WITHIN", "SETTLING", "SHIFTING", "SHOWN_WITHIN",
-    "SLOWEST_RUN", "SOLE_AHEAD", "SOLE_ASIDE", "STEADY", "STRAIGHT", "TRIM_IN_USE", "TRIM_RATE", "TURNING",
-    "UNWINDS", "Seen", "advance", "along", "decide", "mirrored", "observe", "own_period", "pace_share",
-    "rate", "shown_speed", "standing_miss", "targets", "turned_feet", "turned_in", "up_and_yaw", "wrap",
+    "RUN_TRIM", "SETTLES_AT", "SETTLES_SLOWING", "SETTLES_WITHIN", "SETTLING", "SHIFTING", "SHOWN_AHEAD",
+    "SHOWN_WITHIN", "SLOWEST_RUN", "SOLE_AHEAD", "SOLE_ASIDE", "STEADY", "STRAIGHT", "TRIM_IN_USE",
+    "TRIM_RATE", "TURNING", "UNWINDS", "Seen", "advance", "along", "decide", "mirrored", "observe",
+    "own_period", "pace_share", "rate", "shown_speed", "standing_miss", "targets", "turned_feet", "turned_in",
+    "up_and_yaw", "wrap",
 ]  # fmt: skip
 
 ACCELERATION, BRAKING, TURNING = 1.0, 0.8, 2.0
@@ -95,9 +96,10 @@ slowly it falls, too, and from `MOST_AHEAD` [m/s] on not at all."""
 SLOWEST_RUN, ENDS_TURNING, RUN_SIDEWAYS = 1.1, 0.57, 1.6
 """[m/s] that a running person is told at least: the walk takes over there. [rad/s] that it turns at most
 while it slows down for that, and [m/s^2] in any bend."""
-SHOWN_WITHIN = 0.4
-"""[m/s] that the reference motion of a run is faster or slower than the body at most: nobody who still runs
-is shown how to walk."""
+SHOWN_WITHIN, SHOWN_AHEAD = 0.4, 0.8
+"""[m/s] that the reference motion of a run is slower or faster than the body at most: nobody who still runs
+is shown how to walk. The faster the body is, the more the motion may be ahead, up to the second number at 1
+m/s: who speeds up is shown how to run, not what is between both."""
 MOST_LATE, LATER, RUN_TRIM, UNWINDS = 0.8, 0.25, 0.12, 0.03
 """While a person runs, the speed told waits for a body that is slower by more than `MOST_BEHIND` and the
 share `LATER` of the speed, but at most `MOST_LATE` [m/s]. What is added to the speed told is at most the
@@ -246,7 +248,8 @@ def shown_speed(memory: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n,) [m/s]: the speed at which the reference motion is read."""
     speed = memory[:, SPEED]
     body = speed + memory[:, LAG_AHEAD]
-    near = np.clip(speed, body - SHOWN_WITHIN, body + SHOWN_WITHIN)
+    ahead = np.clip(SHOWN_AHEAD * body, SHOWN_WITHIN, SHOWN_AHEAD)
+    near = np.clip(speed, body - SHOWN_WITHIN, body + ahead)
     return np.where(memory[:, FAST] > 0.0, near, np.minimum(speed, FASTEST_WALK))
 
 

@@ -147,6 +147,12 @@ def test_a_run_begins_when_it_is_asked_for_and_ends_when_the_body_is_slow(skill)
     assert memory[0, at.TOLD] == pytest.approx(1.0)
 
 
+def test_who_speeds_up_is_shown_how_to_run_but_not_much_faster_than_it_is():
+    assert law.shown_speed(running(3.5, lag=-0.2))[0] == pytest.approx(3.5)
+    assert law.shown_speed(running(3.5, lag=-1.9))[0] == pytest.approx(1.6 + law.SHOWN_AHEAD)
+    assert law.shown_speed(running(2.0, lag=-1.7))[0] == pytest.approx(0.3 + law.SHOWN_WITHIN)
+
+
 def running(told, lag=0.0):
     """What a running person remembers, (1, STATE_SIZE): its speed [m/s], and how much faster its body is."""
     memory = new_memory(0.0)[None]

@@ -65,7 +65,6 @@ from surefoot.numeric import as_point, is_finite, is_whole
 
 __all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "BetweenGaits", "Human", "HumanState", "Status"]
 
-_SWAYS = 100  # ticks behind a push before it may rest: it is still for a moment as it sways back
 _CHANGE = 0.01  # [m] largest change of the ground under a person at rest that needs no new simulation
 
 
@@ -387,12 +386,10 @@ class Human(Person):
             if lookahead is not None:
                 lookahead.be_surprised()
             self._tick()
-        if self.pushed_until:
+        if self.pushed_until and self.ticks >= self.pushed_until:
+            self.data.xfrc_applied[self.index.bodies["waist"]] = 0.0
+            self.pushed_until = 0
             self.on_feet.catch(self.simulation)
-            if self.ticks == self.pushed_until:
-                self.data.xfrc_applied[self.index.bodies["waist"]] = 0.0
-            if self.ticks >= self.pushed_until + _SWAYS:
-                self.pushed_until = 0
         if lookahead is not None:
             lookahead.look_back()
             if lookahead.waits:

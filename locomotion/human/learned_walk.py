@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from locomotion.body.person import PersonIndex
 from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.kernel import Parts, feel, new_memory
-from locomotion.gaits.policy.law import LIFT_OFF, RUNS_FROM
+from locomotion.gaits.policy.law import RUNS_FROM
 from locomotion.gaits.policy.level_ground import is_level, is_level_around
 from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.gaits.policy.stand import stand_still
@@ -138,12 +138,6 @@ class LearnedWalk:
         surely."""
         self._state[at.STYLE] = self.memory[OWN_STYLE] if shows else 0.0
 
-    def step(self) -> None:
-        """Make steps from now on until it can stand again, the first with the foot that bears less."""
-        right, left = self._felt[at.FORCES].reshape(2, 2).sum(axis=1).tolist()
-        self._state[at.RUNNING], self._state[at.RESTED] = 1.0, 0.0
-        self._state[at.PHASE] = LIFT_OFF + 0.5 * (left > right)
-
     def leave(self) -> None:
         """Something else moves the person now."""
         self.memory[ACTIVE] = 0.0
@@ -170,7 +164,7 @@ class LearnedWalk:
         if self.runs:
             return True  # nothing else can go on from here
         way, active, arc = follower.path, self.active, follower.arc
-        if (not moving and walk[PHASE] == STANDING) or (way is None and active):
+        if not moving and walk[PHASE] == STANDING:
             return bool(is_level_around(body.lookup, *body.position.tolist()))
         if way is None:
             return False

@@ -224,9 +224,10 @@ class OnFeet:
         return self.on_uneven_ground and self.begins_step and bool(self.walk[STRAINS].max() > STRAINED)
 
     def catch(self, body: Simulation) -> None:
-        """Behind a push: who has been thrown off its learned stand steps at once, before it tips over."""
+        """Behind a push: who has been thrown off its learned stand steps as planned, which holds more often
+        to the back and to the sides."""
         if self.learned is not None and self.learned.stands and body.ground_speed > _THROWN:
-            self.learned.step()
+            self.learned.give_back(body, self.walk, self.walk_skill.speed)
 
     def vary_step(self, longer: Sequence[float]) -> None:
         """Lengthen the transfer and the swing of the step that has just begun [s]."""

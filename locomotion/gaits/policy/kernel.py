@@ -28,8 +28,6 @@ from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.evaluation import evaluate
 from locomotion.gaits.policy.law import (
     ACCELERATION,
-    ALL_BUT,
-    ALL_CALM,
     AT_REST,
     BEARING,
     BEARS,
@@ -38,16 +36,12 @@ from locomotion.gaits.policy.law import (
     BOTH_BEAR,
     BRAKING,
     CALM,
-    CATCHES,
     CHANGE_SHARE,
-    CREEPS,
     ENDS_TURNING,
-    FACES_WITHIN,
     FACING,
     FASTEST_WALK,
     FEET_OFF,
     FIRST_STEPS,
-    KEEPS_OFF,
     LAG_SHARE,
     LATER,
     LIFT_OFF,
@@ -94,7 +88,6 @@ _N = len(at.JOINTS)
 _COLUMNS = np.array([JOINT_NAMES.index(name) for name in at.JOINTS])
 _HELD = np.array([k for k, name in enumerate(JOINT_NAMES) if name not in at.JOINTS])
 _TURNS, _SPREADS, _LEANS = _COLUMNS[at.HIP_ROTATIONS], _COLUMNS[at.SPREADING], _COLUMNS[at.LEANING]
-_ARMS = _COLUMNS[at.ARMS_ASIDE]
 _SWINGS = np.array([k in at.SWINGING for k in range(_N)])
 _BENDS = JOINT_NAMES.index("neck_pitch")
 _SOLE_POINTS = np.array([*at.ANKLE_SOLE, at.TIP])
@@ -186,13 +179,10 @@ def _stands(stance, memory, felt, qpos, qvel):
     off_ahead, off_left = off_ahead - (c * x + s * y), off_left - (c * y - s * x)
     miss = math.hypot(off_ahead / SOLE_AHEAD, off_left / (0.5 * max(apart_left, 0.0) + SOLE_ASIDE))
     right, left = felt[_FORCES] + felt[_FORCES + 1], felt[_FORCES + 2] + felt[_FORCES + 3]
-    speed = math.hypot(memory[at.LAG_AHEAD] + memory[at.SPEED], memory[at.LAG_LEFT])
-    bears = min(right, left) > BEARS * at.BODY_WEIGHT
-    if bears:
-        can = speed < CALM and miss < MOST_MISS
-    else:
-        can = speed < ALL_CALM and miss < ALL_BUT and memory[at.RESTED] > CATCHES
+    can = math.hypot(memory[at.LAG_AHEAD] + memory[at.SPEED], memory[at.LAG_LEFT]) < CALM
+    can = can and miss < MOST_MISS
     can = can and abs(memory[at.TURN_RATE]) < FACING
+    can = can and min(right, left) > BEARS * at.BODY_WEIGHT
     can = can and abs(apart_ahead) < FEET_OFF[0] and abs(apart_left - stance[1]) < FEET_OFF[1]
     return can, miss > REACH, left > right
 
@@ -235,7 +225,7 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
         wanted = 0.0
     lag, steady = memory[at.LAG_AHEAD] + memory[at.TRIM], abs(wanted) < STEADY
     off = min(MOST_BEHIND + LATER * told, MOST_LATE) if fast else MOST_BEHIND
-    if lag < -off or (not fast and abs(_wrap(yaw - memory[at.HEADING])) > FACES_WITHIN):
+    if lag < -off:
         wanted = min(wanted, 0.0)
     slower, faster = BRAKING, ACCELERATION
     if fast:
@@ -247,9 +237,7 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
     memory[at.TOLD] += change
     memory[at.CHANGE] += CHANGE_SHARE * (change / at.POLICY_DT - memory[at.CHANGE])
     slow = min(max(1.0 - memory[at.TOLD] / REST_TRIM_ENDS, 0.0), 1.0) * memory[at.RUNNING]
-    creeps = math.hypot(memory[at.LAG_AHEAD] + memory[at.SPEED], memory[at.LAG_LEFT]) < CREEPS
-    creeps = creeps or memory[at.RESTED] > CATCHES
-    slow = slow if to_stand and creeps else 0.0
+    slow = slow if to_stand else 0.0
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
     trim = memory[at.TRIM] + pull * at.POLICY_DT * (memory[at.TOLD] - ahead)
     if fast and not steady:
@@ -355,9 +343,6 @@ def _targets(speeds, periods, joints, rates, means, memory, ctrl):
     for k in range(_SPREADS.shape[0]):
         ctrl[_SPREADS[k]] += memory[at.SPREAD]
     ctrl[_LEANS] += memory[at.TRUNK_LEAN]
-    if memory[at.RUNNING] > 0.0 and not memory[at.FAST] > 0.0:
-        for k in range(_ARMS.shape[0]):
-            ctrl[_ARMS[k]] += KEEPS_OFF
     ctrl[_BENDS] = memory[at.HEAD_BEND]
     turn = memory[at.TURN_RATE] * memory[at.RUNNING] / usual
     for side in range(2):

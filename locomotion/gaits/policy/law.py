@@ -10,7 +10,6 @@ for each decision::
     advance(memory, motion, asked, seen)
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +19,6 @@ from locomotion.gaits.policy.layout import (
     ACTION,
     ANGLES,
     ARM_SWING,
-    ARMS_ASIDE,
     ASKED,
     ASKED_SPEED,
     ASKED_TURN,
@@ -75,16 +73,15 @@ from locomotion.gaits.policy.layout import (
 from locomotion.gaits.policy.motion import Motion
 
 __all__ = [
-    "ACCELERATION", "ALL_BUT", "ALL_CALM", "AT_REST", "BEARING", "BEARS", "BEGINS_AT", "BEGINS_WITHIN",
-    "BOTH_BEAR", "BRAKING", "CALM", "CATCHES", "CHANGE_SHARE", "CREEPS", "ENDS_TURNING", "FACES_WITHIN",
-    "FACING", "FASTEST_WALK", "FEET_OFF", "FIRST_STEPS", "KEEPS_OFF", "LAG_SHARE", "LATER", "LIFT_OFF",
-    "MOST_AHEAD", "MOST_ASKEW", "MOST_BEHIND", "MOST_LATE", "MOST_MISS", "MOST_TRIM", "MOST_TWIST",
-    "PENDULUM", "QUICKENS", "QUICKENS_FROM", "REACH", "REST_TRIM", "REST_TRIM_ENDS", "REST_TRIM_RATE",
-    "RUNS_FROM", "RUN_ACCELERATION", "RUN_BRAKING", "RUN_SIDEWAYS", "RUN_TRIM", "SETTLES_AT",
-    "SETTLES_SLOWING", "SETTLES_WITHIN", "SETTLING", "SHIFTING", "SHOWN_AHEAD", "SHOWN_WITHIN",
-    "SLOWEST_RUN", "SOLE_AHEAD", "SOLE_ASIDE", "STEADY", "STRAIGHT", "TRIM_IN_USE", "TRIM_RATE",
-    "TURNING", "UNWINDS", "Seen", "advance", "along", "decide", "mirrored", "observe", "own_period",
-    "pace_share", "rate", "shown_speed", "standing_miss", "styled", "targets", "turned_feet", "turned_in",
+    "ACCELERATION", "AT_REST", "BEARING", "BEARS", "BEGINS_AT", "BEGINS_WITHIN", "BOTH_BEAR", "BRAKING",
+    "CALM", "CHANGE_SHARE", "ENDS_TURNING", "FACING", "FASTEST_WALK", "FEET_OFF", "FIRST_STEPS",
+    "LAG_SHARE", "LATER", "LIFT_OFF", "MOST_AHEAD", "MOST_ASKEW", "MOST_BEHIND", "MOST_LATE", "MOST_MISS",
+    "MOST_TRIM", "MOST_TWIST", "PENDULUM", "QUICKENS", "QUICKENS_FROM", "REACH", "REST_TRIM",
+    "REST_TRIM_ENDS", "REST_TRIM_RATE", "RUNS_FROM", "RUN_ACCELERATION", "RUN_BRAKING", "RUN_SIDEWAYS",
+    "RUN_TRIM", "SETTLES_AT", "SETTLES_SLOWING", "SETTLES_WITHIN", "SETTLING", "SHIFTING", "SHOWN_AHEAD",
+    "SHOWN_WITHIN", "SLOWEST_RUN", "SOLE_AHEAD", "SOLE_ASIDE", "STEADY", "STRAIGHT", "TRIM_IN_USE",
+    "TRIM_RATE", "TURNING", "UNWINDS", "Seen", "advance", "along", "decide", "mirrored", "observe",
+    "own_period", "pace_share", "rate", "shown_speed", "standing_miss", "targets", "turned_feet", "turned_in",
     "up_and_yaw", "wrap",
 ]  # fmt: skip
 
@@ -124,17 +121,11 @@ TRIM_RATE, MOST_TRIM, TRIM_IN_USE = 0.5, 0.15, 0.4
 most, first while the policy is learned, then in worlds."""
 REST_TRIM, REST_TRIM_RATE, REST_TRIM_ENDS = 0.35, 1.5, 0.4
 """[m/s] that is added at most for who is to stand, lest it creeps away as it steps in place; its rate; and
-[m/s] told, from which on nothing of that is."""
-CREEPS, CATCHES = 0.1, 1.5
-"""[m/s] low-passed, up to which a body creeps, and [s] of steps in place after which a faster one does, too.
-One that a push has just made fast is not told to walk against it: it would set its feet down on the wrong
-side."""
+[m/s] from which on nothing of that is."""
 MOST_TWIST, MOST_BEHIND = 0.45, 0.4
 """[rad] that the heading is off the body's at most: it waits for a body that does not turn as told, and
 follows one that is thrown round. [m/s] that the body, low-passed, may be too slow; beyond that the speed
 told does not rise."""
-FACES_WITHIN = 0.3
-"""[rad] that a body that walks may face off its heading; beyond that the speed told does not rise."""
 AT_REST = 0.05
 """[m/s] asked for, below which a person comes to rest."""
 FACING = 0.05
@@ -153,8 +144,6 @@ BEARS, FEET_OFF = 0.12, (0.1, 0.13)
 MOST_MISS, REACH = 0.8, 1.1
 """Where the body would come to rest, as a share of how far the feet reach: up to which it may begin to stand,
 and above which a person that stands makes a step."""
-ALL_CALM, ALL_BUT = 0.1, 0.5
-"""The same limits of [m/s] and share for one of whose feet is above the ground, after `CATCHES` of steps."""
 PENDULUM = 3.3
 """[1/s] of a standing body: it comes to rest this part of a second's way ahead."""
 SOLE_AHEAD, SOLE_ASIDE = 0.1, 0.03
@@ -164,9 +153,6 @@ BOTH_BEAR, LIFT_OFF = 0.04, 0.12
 off; the right one half a cycle later."""
 SHIFTING = 0.14
 """Share of the cycle before that at which it goes on: first the weight goes over to the other foot."""
-KEEPS_OFF = math.radians(11.0)
-"""[rad] by which arms are held farther aside in a walk than the reference holds them. The network, which has
-learned without contacts between limbs, swings them inwards, too, and hands would go through thighs."""
 LAG_SHARE = 0.08
 """Share of the error of the speed that its low-passed value takes up with each decision."""
 CHANGE_SHARE = 0.15
@@ -287,23 +273,14 @@ def targets(memory: NDArray[np.float64], motion: Motion) -> NDArray[np.float64]:
     middle = motion.at(memory[:, PHASE] + 0.5 * POLICY_DT * pace, speed, memory[:, RUNNING])
     usual = motion.period(speed) * pace  # the reference's rates are those of its own pace
     moving = middle.read(motion.rates) * usual[:, None]
-    found = styled(memory, middle.read(motion.joints) + LEAD * moving, middle.read_rows(motion.means))
+    found = middle.read(motion.joints) + LEAD * moving
+    swing = (found - middle.read_rows(motion.means))[:, SWINGING]
+    found[:, SWINGING] += memory[:, ARM_SWING, None] * swing
+    found[:, SPREADING] += memory[:, SPREAD, None]
+    found[:, LEANING] += memory[:, TRUNK_LEAN]
     found += SCALE * memory[:, ACTION.start : ACTION.stop - 1]
     phase = memory[:, PHASE] + (0.5 * POLICY_DT + LEAD) * pace
     found[:, HIP_ROTATIONS] += turned_in(turned_feet(memory, phase, period))
-    return found
-
-
-def styled(
-    memory: NDArray[np.float64], joints: NDArray[np.float64], means: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """``joints`` (n, 24) [rad] of the motion in each person's own style; ``means`` (n, 24) over the cycle."""
-    found = joints.copy()
-    found[:, SWINGING] += memory[:, ARM_SWING, None] * (joints - means)[:, SWINGING]
-    found[:, SPREADING] += memory[:, SPREAD, None]
-    found[:, LEANING] += memory[:, TRUNK_LEAN]
-    walks = (memory[:, RUNNING] > 0.0) & (memory[:, FAST] == 0.0)
-    found[:, ARMS_ASIDE] += KEEPS_OFF * walks[:, None]
     return found
 
 
@@ -345,11 +322,9 @@ def _stands(
     """Who may begin to stand, and who has to make a step, (n,)."""
     miss, off = standing_miss(memory, motion, seen)
     bears = seen.forces.reshape(-1, 2, 2).sum(axis=2).min(axis=1) > BEARS * BODY_WEIGHT
-    speed = np.hypot(memory[:, LAG_AHEAD] + memory[:, SPEED], memory[:, LAG_LEFT])
-    late = (speed < ALL_CALM) & (miss < ALL_BUT) & (memory[:, RESTED] > CATCHES)
-    calm = np.where(bears, (speed < CALM) & (miss < MOST_MISS), late)
+    calm = np.hypot(memory[:, LAG_AHEAD] + memory[:, SPEED], memory[:, LAG_LEFT]) < CALM
     calm &= np.abs(memory[:, TURN_RATE]) < FACING
-    return calm & (np.abs(off) < FEET_OFF).all(axis=1), miss > REACH
+    return calm & bears & (miss < MOST_MISS) & (np.abs(off) < FEET_OFF).all(axis=1), miss > REACH
 
 
 def advance(
@@ -395,8 +370,7 @@ def advance(
     lag = memory[:, LAG_AHEAD] + memory[:, TRIM] * steadies
     steady = np.abs(wanted) < STEADY
     off = np.where(fast, np.minimum(MOST_BEHIND + LATER * told, MOST_LATE), MOST_BEHIND)
-    askew = np.abs(wrap(yaw - memory[:, HEADING])) > FACES_WITHIN
-    behind = (waits & (lag < -off)) | (steadies & askew & ~fast)
+    behind = waits & (lag < -off)
     wanted = np.where(behind, np.minimum(wanted, 0.0), wanted)
     most, less, full = RUN_BRAKING
     runs = np.clip((told - less) / (full - less), 0.0, 1.0) * fast
@@ -407,9 +381,7 @@ def advance(
     memory[:, TOLD] += change
     memory[:, CHANGE] += CHANGE_SHARE * (change / POLICY_DT - memory[:, CHANGE])
     slow = np.clip(1.0 - memory[:, TOLD] / REST_TRIM_ENDS, 0.0, 1.0) * memory[:, RUNNING]
-    creeps = np.hypot(memory[:, LAG_AHEAD] + memory[:, SPEED], memory[:, LAG_LEFT]) < CREEPS
-    creeps |= memory[:, RESTED] > CATCHES
-    slow *= to_stand & creeps & steadies
+    slow *= to_stand & steadies
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
     trim = memory[:, TRIM] + pull * POLICY_DT * (memory[:, TOLD] - v[:, 0])
     trim = np.where(fast & ~steady, memory[:, TRIM] * (1.0 - UNWINDS), trim)

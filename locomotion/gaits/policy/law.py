@@ -81,8 +81,8 @@ __all__ = [
     "RUN_TRIM", "SETTLES_AT", "SETTLES_SLOWING", "SETTLES_WITHIN", "SETTLING", "SHIFTING", "SHOWN_AHEAD",
     "SHOWN_WITHIN", "SLOWEST_RUN", "SOLE_AHEAD", "SOLE_ASIDE", "STEADY", "STRAIGHT", "TRIM_IN_USE",
     "TRIM_RATE", "TURNING", "UNWINDS", "Seen", "advance", "along", "decide", "mirrored", "observe",
-    "own_period", "pace_share", "rate", "shown_speed", "standing_miss", "styled", "targets",
-    "turned_feet", "turned_in", "up_and_yaw", "wrap",
+    "own_period", "pace_share", "rate", "shown_speed", "standing_miss", "targets", "turned_feet", "turned_in",
+    "up_and_yaw", "wrap",
 ]  # fmt: skip
 
 ACCELERATION, BRAKING, TURNING = 1.0, 0.8, 2.0
@@ -273,21 +273,14 @@ def targets(memory: NDArray[np.float64], motion: Motion) -> NDArray[np.float64]:
     middle = motion.at(memory[:, PHASE] + 0.5 * POLICY_DT * pace, speed, memory[:, RUNNING])
     usual = motion.period(speed) * pace  # the reference's rates are those of its own pace
     moving = middle.read(motion.rates) * usual[:, None]
-    found = styled(memory, middle.read(motion.joints) + LEAD * moving, middle.read_rows(motion.means))
+    found = middle.read(motion.joints) + LEAD * moving
+    swing = (found - middle.read_rows(motion.means))[:, SWINGING]
+    found[:, SWINGING] += memory[:, ARM_SWING, None] * swing
+    found[:, SPREADING] += memory[:, SPREAD, None]
+    found[:, LEANING] += memory[:, TRUNK_LEAN]
     found += SCALE * memory[:, ACTION.start : ACTION.stop - 1]
     phase = memory[:, PHASE] + (0.5 * POLICY_DT + LEAD) * pace
     found[:, HIP_ROTATIONS] += turned_in(turned_feet(memory, phase, period))
-    return found
-
-
-def styled(
-    memory: NDArray[np.float64], joints: NDArray[np.float64], means: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """``joints`` (n, 24) [rad] of the motion in each person's own style; ``means`` (n, 24) over the cycle."""
-    found = joints.copy()
-    found[:, SWINGING] += memory[:, ARM_SWING, None] * (joints - means)[:, SWINGING]
-    found[:, SPREADING] += memory[:, SPREAD, None]
-    found[:, LEANING] += memory[:, TRUNK_LEAN]
     return found
 
 

@@ -40,9 +40,8 @@ TERMS = tuple(WEIGHTS)
 (heels and tips from the root), ``root`` (attitude, height, spin), ``speed``, ``nears`` and ``catches`` (the
 same, but also felt far off, and from anywhere), ``load`` (what each foot bears), ``rise`` (speed up and
 down). At a cost: ``change`` and ``effort`` of decisions, ``pace`` other than the usual, ``impact`` above 1.5
-body weights, or 2.3 in a run, ``slip``: speed of the lowest point of a foot, toes included, that touches the
-ground [m/s]."""
-_FIRM, _FIRM_RUN = 1.5, 2.3  # [body weights]
+body weights, ``slip``: speed of the lowest point of a foot, toes included, that touches the ground [m/s]."""
+_FIRM, _FIRM_RUN = 1.5, 2.8  # [body weights]
 _FAR_OFF, _FARTHEST = 0.15, 0.1  # shares of the error of the speed that count
 _TOUCHES = 12.0  # per body weight: a tenth of it counts nearly as the whole
 _WEIGHTED = {

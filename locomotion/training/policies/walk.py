@@ -10,12 +10,10 @@ from locomotion.body.person import person_digest
 from locomotion.gaits.policy.skill import WALK_POLICY, PolicySkill
 from locomotion.training.policies.agent import Agent
 from locomotion.training.policies.curriculum import RUNNING, STANDING, WALKING, Stage
-from locomotion.training.policies.endings import where_it_ended
-from locomotion.training.policies.environment import Environment, motion_of
+from locomotion.training.policies.environment import Environment, Starts, motion_of, where_it_ended
 from locomotion.training.policies.learning import Learning, tells
 from locomotion.training.policies.reference import make_reference
 from locomotion.training.policies.running_reference import with_run
-from locomotion.training.policies.starts import Starts
 from locomotion.training.policies.takeovers import out_of_runs, takeovers
 from locomotion.training.policies.trial import PolicyTrial
 from locomotion.training.search.checkpoint import claim

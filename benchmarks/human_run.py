@@ -16,6 +16,8 @@ and running", Acta Physiol. Scand. 136.
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.human_walk import over_cycle
+
 __all__ = ["CURVES", "TARGETS", "runners_cadence", "runners_curves"]
 
 CURVES: dict[float, dict[str, tuple[float, ...]]] = {
@@ -76,9 +78,9 @@ def runners_cadence(speed: float) -> float:
 def runners_curves(speed: float, samples: int) -> dict[str, NDArray[np.float64]]:
     """Curves of thigh, knee and ankle at ``speed`` [m/s] at equal shares of the cycle, each (samples,) [deg]:
     between those of `CURVES`, and those of the nearest speed outside of them."""
-    at, found = np.arange(samples) / samples, {}
+    found = {}
     for name in CURVES[_SPEEDS[0]]:
         rows = np.array([CURVES[each][name] for each in _SPEEDS])
-        values = [np.interp(speed, _SPEEDS, column) for column in rows.T]
-        found[name] = np.interp(at, np.arange(len(values)) / len(values), values, period=1.0)
+        values = [float(np.interp(speed, _SPEEDS, column)) for column in rows.T]
+        found[name] = over_cycle(values, samples)
     return found

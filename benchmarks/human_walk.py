@@ -10,10 +10,12 @@ and double support: Winter (1991), "The biomechanics and motor control of human 
 Murray et al. (1967).
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["CURVES", "TARGETS", "human_cadence", "human_curves"]
+__all__ = ["CURVES", "TARGETS", "human_cadence", "human_curves", "over_cycle"]
 
 _HIP = (33.5, 33.8, 32.3, 30.3, 26.1, 22.4, 17.9, 12.4, 7.5, 3.2, -0.6, -3.8, -6.5, -8.8, -9.8, -8.0, -2.4,
         5.8, 14.8, 21.7, 27.9, 32.4, 34.3, 34.3, 34.1)  # fmt: skip
@@ -55,7 +57,10 @@ def human_cadence(speed: float) -> float:
 
 def human_curves(samples: int) -> dict[str, NDArray[np.float64]]:
     """`CURVES` at equal shares of the cycle, each (samples,) [deg]."""
-    at, found = np.arange(samples) / samples, {}
-    for name, values in CURVES.items():
-        found[name] = np.interp(at, np.arange(len(values)) / len(values), values, period=1.0)
-    return found
+    return {name: over_cycle(values, samples) for name, values in CURVES.items()}
+
+
+def over_cycle(values: Sequence[float], samples: int) -> NDArray[np.float64]:
+    """A curve of any number of ``values`` at equal shares of the cycle, which begins anew, (samples,)."""
+    shares = np.arange(len(values)) / len(values)
+    return np.interp(np.arange(samples) / samples, shares, values, period=1.0)

@@ -204,7 +204,7 @@ def get_up_tick(ground, memory, qpos, qvel, ctrl):
             move(begun if careful else gathered, over[0], clock / _SWING_TIME, ctrl)
         else:
             move(over[0], over[1], (clock - _SWING_TIME) / _FOLLOW_TIME, ctrl)
-        # where it is steep, it stops as soon as it is on its front; otherwise it would roll on
+        # on a steep slope the roll ends once the body lies on its front; it would go on downhill otherwise
         comes_over = steep and lies_on_front(ground, memory)[0] < _ON_FRONT
         if clock > _SWING_TIME + _FOLLOW_TIME or (comes_over and clock > _SWING_TIME):
             _go_on(memory, REACHING, ctrl)

@@ -97,9 +97,9 @@ SLOWEST_RUN, ENDS_TURNING, RUN_SIDEWAYS = 1.1, 0.57, 1.6
 """[m/s] that a running person is told at least: the walk takes over there. [rad/s] that it turns at most
 while it slows down for that, and [m/s^2] in any bend."""
 SHOWN_WITHIN, SHOWN_AHEAD = 0.4, 0.8
-"""[m/s] that the reference motion of a run is slower or faster than the body at most: nobody who still runs
-is shown how to walk. The faster the body is, the more the motion may be ahead, up to the second number at 1
-m/s: who speeds up is shown how to run, not what is between both."""
+"""[m/s] by which the reference motion of a run may be slower or faster than the body: nobody who still runs
+is shown how to walk. While the body speeds up from 0.5 to 1 m/s, the motion may be ahead by more and more, up
+to the second number: a person that speeds up is shown how to run, not what lies between walk and run."""
 MOST_LATE, LATER, RUN_TRIM, UNWINDS = 0.8, 0.25, 0.12, 0.03
 """While a person runs, the speed told waits for a body that is slower by more than `MOST_BEHIND` and the
 share `LATER` of the speed, but at most `MOST_LATE` [m/s]. What is added to the speed told is at most the
@@ -120,8 +120,8 @@ TRIM_RATE, MOST_TRIM, TRIM_IN_USE = 0.5, 0.15, 0.4
 """Part of the error of the speed that is added to it, per second, and the share of the speed that is added at
 most, first while the policy is learned, then in worlds."""
 REST_TRIM, REST_TRIM_RATE, REST_TRIM_ENDS = 0.35, 1.5, 0.4
-"""[m/s] that is added at most for who is to stand, lest it creeps away as it steps in place; its rate; and
-[m/s] from which on nothing of that is."""
+"""While a person steps in place before it stands: most that is added to the speed told [m/s], so that it does
+not creep away; its rate; and the speed told [m/s] from which on nothing is added."""
 MOST_TWIST, MOST_BEHIND = 0.45, 0.4
 """[rad] that the heading is off the body's at most: it waits for a body that does not turn as told, and
 follows one that is thrown round. [m/s] that the body, low-passed, may be too slow; beyond that the speed

@@ -65,6 +65,7 @@ from surefoot.numeric import as_point, is_finite, is_whole
 
 __all__ = ["ARRIVAL_DISTANCE", "PERSON_RULES", "BetweenGaits", "Human", "HumanState", "Status"]
 
+_SWAYS = 100  # ticks behind a push before it may rest: it is still for a moment as it sways back
 _CHANGE = 0.01  # [m] largest change of the ground under a person at rest that needs no new simulation
 
 
@@ -347,7 +348,7 @@ class Human(Person):
         if self.fours.active or self.status in CLEARING.values():
             return None
         if follower.path is None or self.status not in ("walking", "running"):
-            limits = feet.walk_limits if feet.walks else feet.limits
+            limits = feet.walks_within if feet.walks else feet.limits
             if feet.runs_as_learned:
                 limits = replace(feet.limits, deceleration=RUN_STOPS)
             will_brake = feet.runs and self.decider.answer is not None
@@ -355,7 +356,7 @@ class Human(Person):
                 limits = replace(limits, deceleration=BRAKING)
             return course_to_rest(here, velocity, limits)
         walks = self.status == "walking"
-        limits, facing = feet.walk_limits, float(feet.walk[WALK_HEADING])
+        limits, facing = feet.walks_within, float(feet.walk[WALK_HEADING])
         if not walks:
             limits, facing = feet.limits, math.atan2(velocity[1], velocity[0])
         aside = self.run_up.ahead is None
@@ -386,10 +387,12 @@ class Human(Person):
             if lookahead is not None:
                 lookahead.be_surprised()
             self._tick()
-        if self.pushed_until and self.ticks >= self.pushed_until:
-            self.data.xfrc_applied[self.index.bodies["waist"]] = 0.0
-            self.pushed_until = 0
-            self.on_feet.catch(self.simulation)
+        if self.pushed_until:
+            self.on_feet.catch(self.simulation, self.ticks < self.pushed_until)
+            if self.ticks == self.pushed_until:
+                self.data.xfrc_applied[self.index.bodies["waist"]] = 0.0
+            if self.ticks >= self.pushed_until + _SWAYS:
+                self.pushed_until = 0
         if lookahead is not None:
             lookahead.look_back()
             if lookahead.waits:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from locomotion.body.person import PersonIndex
 from locomotion.gaits.policy import layout as at
 from locomotion.gaits.policy.kernel import Parts, feel, new_memory
-from locomotion.gaits.policy.law import RUNS_FROM
+from locomotion.gaits.policy.law import LIFT_OFF, RUNS_FROM
 from locomotion.gaits.policy.level_ground import is_level, is_level_around
 from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.gaits.policy.stand import stand_still
@@ -59,6 +59,7 @@ _SEES, _LEAVES = 2.6, 1.6
 # [m] of level ground ahead with which it takes over, and without which it gives back
 _BEHIND = 0.5  # [m] behind it that have to be level, too: a foot is still there
 _AT_LEAST, _ASKEW = 0.5, 0.25  # [m/s] and [rad] off its way with which it takes over
+_SHARP = 0.6  # [rad] off its way from which it turns only where the ground is level all around
 _DROPS = 2.0  # [m/s] downwards with which the ground has gone
 RUN_STOPS = 1.2
 """[m/s^2] with which it comes to rest out of a run."""
@@ -138,6 +139,12 @@ class LearnedWalk:
         surely."""
         self._state[at.STYLE] = self.memory[OWN_STYLE] if shows else 0.0
 
+    def step(self) -> None:
+        """Make steps from now on until it can stand again, the first with the foot that bears less."""
+        right, left = self._felt[at.FORCES].reshape(2, 2).sum(axis=1).tolist()
+        self._state[at.RUNNING], self._state[at.RESTED] = 1.0, 0.0
+        self._state[at.PHASE] = LIFT_OFF + 0.5 * (left > right)
+
     def leave(self) -> None:
         """Something else moves the person now."""
         self.memory[ACTIVE] = 0.0
@@ -164,15 +171,17 @@ class LearnedWalk:
         if self.runs:
             return True  # nothing else can go on from here
         way, active, arc = follower.path, self.active, follower.arc
-        if not moving and walk[PHASE] == STANDING:
+        if (not moving and walk[PHASE] == STANDING) or (way is None and active):
             return bool(is_level_around(body.lookup, *body.position.tolist()))
         if way is None:
             return False
         far = _LEAVES if active else _SEES
+        off = abs(wrap(command[HEADING_ASKED] - walk[WALK_HEADING]))
+        if active and off > _SHARP and not is_level_around(body.lookup, *body.position.tolist()):
+            return False  # it drifts as it turns
         if not active and walk[PHASE] != STANDING:
             if not moving or command[SPEED_ASKED] < SLOWEST or follower.remaining < far:
                 return False  # it will stand before long
-            off = abs(wrap(command[HEADING_ASKED] - walk[WALK_HEADING]))
             if off > _ASKEW or body.ground_speed < _AT_LEAST:
                 return False  # it turns on the spot
         rows = way.table

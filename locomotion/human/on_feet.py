@@ -25,6 +25,7 @@ from locomotion.avoidance.yielding import TURNING_SPEED
 from locomotion.body.person import CONTROL_DT, PersonIndex
 from locomotion.gaits.brake import SLOWEST, BrakeSkill
 from locomotion.gaits.limits import run_limits, walk_limits
+from locomotion.gaits.policy.law import BRAKING
 from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.gaits.residual.skill import ResidualSkill
 from locomotion.gaits.run import controller
@@ -85,6 +86,7 @@ _TURN_ROUND, _TURNING, _MOVES = 2.4, 0.5, 0.4
 _NOTHING = np.zeros(0)
 _UPRIGHT = 0.8  # [m] of the centre of mass over the lower foot of one that stands
 _CALM, _THROWN = 0.1, 0.12  # [m/s] of one that may stand as learned, and that has been thrown off that
+_BACKWARDS = -0.6  # cosine of the angle off its heading of one that is thrown backwards
 _STILL = 0.03  # [m/s] of the centre of mass at rest
 
 
@@ -99,6 +101,7 @@ class _Made(NamedTuple):
     limits: TrackingLimits
     learned_limits: TrackingLimits
     walk_limits: TrackingLimits
+    learned_walk_limits: TrackingLimits
 
 
 @lru_cache(maxsize=8)
@@ -119,6 +122,7 @@ def _made_of(
         speed_up.run_tables(run), slow_down.run_tables(run), brake.run_tables(run),
         slow_down.walk_tables(walk), brake.walk_tables(walk), runs,
         replace(runs, sideways=SIDEWAYS, deceleration=_GENTLY, slowing=_GENTLY, rest=_RESTS), walks,
+        replace(walks, deceleration=BRAKING),
     )  # fmt: skip
 
 
@@ -151,6 +155,7 @@ class OnFeet:
         self.limits, self.learned_limits, self.walk_limits = (
             made.limits, made.learned_limits, made.walk_limits
         )  # fmt: skip
+        self._learned_walk_limits = made.learned_walk_limits
         self._slippery = load_slippery_roll()
         self.walk = new_walk()
         self.learned = None if policy is None else LearnedWalk(policy)
@@ -172,6 +177,11 @@ class OnFeet:
     def runs_as_learned(self) -> bool:
         """Whether it runs as learned, or has not slowed down from that yet."""
         return self.walks and self.learned is not None and self.learned.runs
+
+    @property
+    def walks_within(self) -> TrackingLimits:
+        """Limits of how it walks just now: as learned it may slow down faster than paths are planned."""
+        return self._learned_walk_limits if self.walks_as_learned else self.walk_limits
 
     @property
     def learned_memory(self) -> NDArray[np.float64]:
@@ -223,11 +233,19 @@ class OnFeet:
         before."""
         return self.on_uneven_ground and self.begins_step and bool(self.walk[STRAINS].max() > STRAINED)
 
-    def catch(self, body: Simulation) -> None:
-        """Behind a push: who has been thrown off its learned stand steps as planned, which holds more often
-        to the back and to the sides."""
-        if self.learned is not None and self.learned.stands and body.ground_speed > _THROWN:
-            self.learned.give_back(body, self.walk, self.walk_skill.speed)
+    def catch(self, body: Simulation, pushed: bool) -> None:
+        """While a person is ``pushed``, and just after: one that is thrown off its learned stand steps at
+        once, before it tips over. Thrown backwards it steps as planned, after the push, and falls less
+        often."""
+        learned = self.learned
+        if learned is None or not learned.stands or body.ground_speed < _THROWN:
+            return
+        vx, vy = body.data.qvel[:2].tolist()
+        heading = self.walk.item(WALK_HEADING)
+        if math.cos(heading) * vx + math.sin(heading) * vy > _BACKWARDS * math.hypot(vx, vy):
+            learned.step()
+        elif not pushed:
+            learned.give_back(body, self.walk, self.walk_skill.speed)
 
     def vary_step(self, longer: Sequence[float]) -> None:
         """Lengthen the transfer and the swing of the step that has just begun [s]."""

@@ -31,7 +31,7 @@ from locomotion.skills.run_up import RunUp
 
 __all__ = ["Person"]
 
-_SETTLING = 600  # ticks for a person that has stopped walking to come to rest
+_SETTLING = 900  # ticks for a person that has stopped walking to come to rest
 _FALL_TICKS = 100  # ticks for which a fallen body is simulated before it is held
 _HEMMED_IN = 9.0  # [m] before an obstacle in which it may not change to a walk
 _SOON_WALKED, _SOON_RUN, _SOON_SLOWS = 2.5, 4.0, 5.0
@@ -46,9 +46,10 @@ class Person:
       run_up: the obstacles on the path and how it clears them. fours: how it goes on hands and feet.
       command: heading and speeds for the controllers, (4,).
       status, events: see `locomotion.human.human.Human`. ticks: since the person was made. ended_at: the tick
-        in which it fell or stopped. pushed_until: the tick at the end of which a push ends, 0 without one.
-        habit: 0 to 1, what makes it an individual at rest (`idle.idle_pose`); it does not change. size: how
-        large it is in the world (`locomotion.human.measure`), for the reasons that it gives.
+        in which it fell or stopped. pushed_until: the tick at the end of which a push ends, 0 once it
+        has swayed back from it, or without one. habit: 0 to 1, what makes it an individual at rest
+        (`idle.idle_pose`); it does not change. size: how large it is in the world
+        (`locomotion.human.measure`), for the reasons that it gives.
     """
 
     def __init__(self, ground: Ground | None, on_feet: OnFeet, clearing: Sequence[ClearingSkill]) -> None:

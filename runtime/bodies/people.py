@@ -10,7 +10,7 @@ import numpy as np
 import navmesh
 from locomotion import PERSON_RULES
 from locomotion.body.models import person_on
-from locomotion.body.traits import SIZE, chance_at
+from locomotion.body.traits import SIZE, TRAITS, by_chance, chance_at
 from locomotion.human.motion_start import moment_like, set_in_motion
 from locomotion.human.sized_human import SizedHuman, movements_of
 from locomotion.postures.step_order import AT_REST
@@ -60,6 +60,8 @@ class People(Population):
         chance = chance_at(place, self._seed)
         driver.hesitates = round(float(chance.uniform(0.0, _HESITATES)), 2)
         driver.human.habit = float(chance.random())
+        own = by_chance(int(chance.integers(2**31)))
+        driver.set_style({name: float(own[k]) for k, name in enumerate(TRAITS) if k != SIZE})
         self._drivers.append(driver)
         return driver
 

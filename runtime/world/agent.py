@@ -299,8 +299,8 @@ class Agent:
     def set_style(self, /, **traits: float) -> None:
         """Let a person differ from others in these traits: its ``phase``, ``pace``, ``width`` of step, swing
         of the ``arms``, ``lean``, ``head`` and ``size``, as of `locomotion.body.traits.TRAITS`. Those that
-        are not named stay as they are. A simulated person begins with the usual ones, one that plays recorded
-        motion with traits by chance, and both with the size 1, which is 1.76 m.
+        are not named stay as they are. A person begins with traits by chance, from the world's seed and its
+        place, and with the size 1, which is 1.76 m.
 
         While it is simulated they show on its next level ways without obstacles, but for the phase, and
         within `locomotion.gaits.policy.style.WORN`: beyond that it would fall. Another size shows at once,

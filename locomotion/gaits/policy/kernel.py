@@ -25,9 +25,12 @@ from numpy.typing import NDArray
 from locomotion.body.contacts import contacts_of
 from locomotion.body.person import JOINT_NAMES, PersonIndex
 from locomotion.gaits.policy import layout as at
+from locomotion.gaits.policy.corrections import correct_one, kept_off_one
 from locomotion.gaits.policy.evaluation import evaluate
 from locomotion.gaits.policy.law import (
     ACCELERATION,
+    ALL_BUT,
+    ALL_CALM,
     AT_REST,
     BEARING,
     BEARS,
@@ -36,8 +39,11 @@ from locomotion.gaits.policy.law import (
     BOTH_BEAR,
     BRAKING,
     CALM,
+    CATCHES,
     CHANGE_SHARE,
+    CREEPS,
     ENDS_TURNING,
+    FACES_WITHIN,
     FACING,
     FASTEST_WALK,
     FEET_OFF,
@@ -88,6 +94,7 @@ _N = len(at.JOINTS)
 _COLUMNS = np.array([JOINT_NAMES.index(name) for name in at.JOINTS])
 _HELD = np.array([k for k, name in enumerate(JOINT_NAMES) if name not in at.JOINTS])
 _TURNS, _SPREADS, _LEANS = _COLUMNS[at.HIP_ROTATIONS], _COLUMNS[at.SPREADING], _COLUMNS[at.LEANING]
+_ASIDE = np.array(at.ARMS_ASIDE)
 _SWINGS = np.array([k in at.SWINGING for k in range(_N)])
 _BENDS = JOINT_NAMES.index("neck_pitch")
 _SOLE_POINTS = np.array([*at.ANKLE_SOLE, at.TIP])
@@ -179,10 +186,13 @@ def _stands(stance, memory, felt, qpos, qvel):
     off_ahead, off_left = off_ahead - (c * x + s * y), off_left - (c * y - s * x)
     miss = math.hypot(off_ahead / SOLE_AHEAD, off_left / (0.5 * max(apart_left, 0.0) + SOLE_ASIDE))
     right, left = felt[_FORCES] + felt[_FORCES + 1], felt[_FORCES + 2] + felt[_FORCES + 3]
-    can = math.hypot(memory[at.LAG_AHEAD] + memory[at.SPEED], memory[at.LAG_LEFT]) < CALM
-    can = can and miss < MOST_MISS
+    speed = math.hypot(memory[at.LAG_AHEAD] + memory[at.SPEED], memory[at.LAG_LEFT])
+    bears = min(right, left) > BEARS * at.BODY_WEIGHT
+    if bears:
+        can = speed < CALM and miss < MOST_MISS
+    else:
+        can = speed < ALL_CALM and miss < ALL_BUT and memory[at.RESTED] > CATCHES
     can = can and abs(memory[at.TURN_RATE]) < FACING
-    can = can and min(right, left) > BEARS * at.BODY_WEIGHT
     can = can and abs(apart_ahead) < FEET_OFF[0] and abs(apart_left - stance[1]) < FEET_OFF[1]
     return can, miss > REACH, left > right
 
@@ -225,7 +235,7 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
         wanted = 0.0
     lag, steady = memory[at.LAG_AHEAD] + memory[at.TRIM], abs(wanted) < STEADY
     off = min(MOST_BEHIND + LATER * told, MOST_LATE) if fast else MOST_BEHIND
-    if lag < -off:
+    if lag < -off or (not fast and abs(_wrap(yaw - memory[at.HEADING])) > FACES_WITHIN):
         wanted = min(wanted, 0.0)
     slower, faster = BRAKING, ACCELERATION
     if fast:
@@ -237,7 +247,10 @@ def _advance(speeds, periods, stance, memory, asked, felt, qpos, qvel):
     memory[at.TOLD] += change
     memory[at.CHANGE] += CHANGE_SHARE * (change / at.POLICY_DT - memory[at.CHANGE])
     slow = min(max(1.0 - memory[at.TOLD] / REST_TRIM_ENDS, 0.0), 1.0) * memory[at.RUNNING]
-    slow = slow if to_stand else 0.0
+    creeps = math.hypot(memory[at.LAG_AHEAD] + memory[at.SPEED], memory[at.LAG_LEFT]) < CREEPS
+    creeps = creeps or memory[at.RESTED] > CATCHES
+    turns = abs(memory[at.TURN_RATE]) > FACING
+    slow = slow if asked[at.ASKED_SPEED] < AT_REST and (creeps or turns) else 0.0
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
     trim = memory[at.TRIM] + pull * at.POLICY_DT * (memory[at.TOLD] - ahead)
     if fast and not steady:
@@ -282,6 +295,8 @@ def _observe(memory, felt, qpos, qvel, out):
     for k in range(_N):
         out[_ANGLES + k] = qpos[7 + _COLUMNS[k]]
         out[_RATES + k] = 0.1 * qvel[6 + _COLUMNS[k]]
+    for k in range(_ASIDE.shape[0]):
+        out[_ANGLES + _ASIDE[k]] -= kept_off_one(memory)
     for k in range(6):
         out[_RISE + k] = felt[3 * k + 2] - qpos[2]
     for k in range(2):
@@ -335,9 +350,11 @@ def _targets(speeds, periods, joints, rates, means, memory, ctrl):
             w00 * rates[i, j, n] + w01 * rates[i, k, n] + w10 * rates[i + 1, j, n] + w11 * rates[i + 1, k, n]
         )
         angle += lead * moving
+        decided = at.SCALE[n] * memory[_ACTION + n]
         if _SWINGS[n]:
             angle += memory[at.ARM_SWING] * (angle - (1.0 - a) * means[i, n] - a * means[i + 1, n])
-        ctrl[_COLUMNS[n]] = angle + at.SCALE[n] * memory[_ACTION + n]
+            decided *= 1.0 + memory[at.ARM_SWING]
+        ctrl[_COLUMNS[n]] = angle + decided
     for n in range(_HELD.shape[0]):
         ctrl[_HELD[n]] = 0.0
     for k in range(_SPREADS.shape[0]):
@@ -345,8 +362,10 @@ def _targets(speeds, periods, joints, rates, means, memory, ctrl):
     ctrl[_LEANS] += memory[at.TRUNK_LEAN]
     ctrl[_BENDS] = memory[at.HEAD_BEND]
     turn = memory[at.TURN_RATE] * memory[at.RUNNING] / usual
+    phase = memory[at.PHASE] + (0.5 * at.POLICY_DT + at.LEAD) * pace
+    correct_one(memory, _shown_speed(memory), phase, ctrl)
     for side in range(2):
-        share = memory[at.PHASE] + (0.5 * at.POLICY_DT + at.LEAD) * pace + 0.5 * side
+        share = phase + 0.5 * side
         foot = min(max(turn * _behind(share - math.floor(share)), -MOST_ASKEW), MOST_ASKEW)
         ctrl[_TURNS[side]] += foot if side == 0 else -foot
 

@@ -15,10 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from locomotion.gaits.policy.corrections import corrections, kept_off
 from locomotion.gaits.policy.layout import (
     ACTION,
     ANGLES,
     ARM_SWING,
+    ARMS_ASIDE,
     ASKED,
     ASKED_SPEED,
     ASKED_TURN,
@@ -73,15 +75,16 @@ from locomotion.gaits.policy.layout import (
 from locomotion.gaits.policy.motion import Motion
 
 __all__ = [
-    "ACCELERATION", "AT_REST", "BEARING", "BEARS", "BEGINS_AT", "BEGINS_WITHIN", "BOTH_BEAR", "BRAKING",
-    "CALM", "CHANGE_SHARE", "ENDS_TURNING", "FACING", "FASTEST_WALK", "FEET_OFF", "FIRST_STEPS",
-    "LAG_SHARE", "LATER", "LIFT_OFF", "MOST_AHEAD", "MOST_ASKEW", "MOST_BEHIND", "MOST_LATE", "MOST_MISS",
-    "MOST_TRIM", "MOST_TWIST", "PENDULUM", "QUICKENS", "QUICKENS_FROM", "REACH", "REST_TRIM",
-    "REST_TRIM_ENDS", "REST_TRIM_RATE", "RUNS_FROM", "RUN_ACCELERATION", "RUN_BRAKING", "RUN_SIDEWAYS",
-    "RUN_TRIM", "SETTLES_AT", "SETTLES_SLOWING", "SETTLES_WITHIN", "SETTLING", "SHIFTING", "SHOWN_AHEAD",
-    "SHOWN_WITHIN", "SLOWEST_RUN", "SOLE_AHEAD", "SOLE_ASIDE", "STEADY", "STRAIGHT", "TRIM_IN_USE",
-    "TRIM_RATE", "TURNING", "UNWINDS", "Seen", "advance", "along", "decide", "mirrored", "observe",
-    "own_period", "pace_share", "rate", "shown_speed", "standing_miss", "targets", "turned_feet", "turned_in",
+    "ACCELERATION", "ALL_BUT", "ALL_CALM", "AT_REST", "BEARING", "BEARS", "BEGINS_AT", "BEGINS_WITHIN",
+    "BOTH_BEAR", "BRAKING", "CALM", "CATCHES", "CHANGE_SHARE", "CREEPS", "ENDS_TURNING", "FACES_WITHIN",
+    "FACING", "FASTEST_WALK", "FEET_OFF", "FIRST_STEPS", "LAG_SHARE", "LATER", "LIFT_OFF",
+    "MOST_AHEAD", "MOST_ASKEW", "MOST_BEHIND", "MOST_LATE", "MOST_MISS", "MOST_TRIM", "MOST_TWIST",
+    "PENDULUM", "QUICKENS", "QUICKENS_FROM", "REACH", "REST_TRIM", "REST_TRIM_ENDS", "REST_TRIM_RATE",
+    "RUNS_FROM", "RUN_ACCELERATION", "RUN_BRAKING", "RUN_SIDEWAYS", "RUN_TRIM", "SETTLES_AT",
+    "SETTLES_SLOWING", "SETTLES_WITHIN", "SETTLING", "SHIFTING", "SHOWN_AHEAD", "SHOWN_WITHIN",
+    "SLOWEST_RUN", "SOLE_AHEAD", "SOLE_ASIDE", "STEADY", "STRAIGHT", "TRIM_IN_USE", "TRIM_RATE",
+    "TURNING", "UNWINDS", "Seen", "advance", "along", "decide", "mirrored", "observe", "own_period",
+    "pace_share", "rate", "shown_speed", "standing_miss", "styled", "targets", "turned_feet", "turned_in",
     "up_and_yaw", "wrap",
 ]  # fmt: skip
 
@@ -122,10 +125,16 @@ most, first while the policy is learned, then in worlds."""
 REST_TRIM, REST_TRIM_RATE, REST_TRIM_ENDS = 0.35, 1.5, 0.4
 """While a person steps in place before it stands: most that is added to the speed told [m/s], so that it does
 not creep away; its rate; and the speed told [m/s] from which on nothing is added."""
+CREEPS, CATCHES = 0.1, 1.5
+"""[m/s] low-passed, up to which a body creeps, and [s] of steps in place after which a faster one does, too.
+A body that a push has just made fast is not told to walk against it: it would set its feet down on the wrong
+side."""
 MOST_TWIST, MOST_BEHIND = 0.45, 0.4
 """[rad] that the heading is off the body's at most: it waits for a body that does not turn as told, and
 follows one that is thrown round. [m/s] that the body, low-passed, may be too slow; beyond that the speed
 told does not rise."""
+FACES_WITHIN = 0.3
+"""[rad] that a body that walks may face off its heading; beyond that the speed told does not rise."""
 AT_REST = 0.05
 """[m/s] asked for, below which a person comes to rest."""
 FACING = 0.05
@@ -144,6 +153,8 @@ BEARS, FEET_OFF = 0.12, (0.1, 0.13)
 MOST_MISS, REACH = 0.8, 1.1
 """Where the body would come to rest, as a share of how far the feet reach: up to which it may begin to stand,
 and above which a person that stands makes a step."""
+ALL_CALM, ALL_BUT = 0.1, 0.5
+"""The same limits of [m/s] and share for one of whose feet is above the ground, after `CATCHES` of steps."""
 PENDULUM = 3.3
 """[1/s] of a standing body: it comes to rest this part of a second's way ahead."""
 SOLE_AHEAD, SOLE_ASIDE = 0.1, 0.03
@@ -213,6 +224,7 @@ def observe(memory: NDArray[np.float64], seen: Seen) -> NDArray[np.float64]:
     out[:, YAW_SEEN] = wrap(yaw - heading)
     out[:, LAGS] = memory[:, [LAG_AHEAD, LAG_LEFT]]
     out[:, ANGLES], out[:, RATES] = seen.angles, 0.1 * seen.rates
+    out[:, ANGLES][:, ARMS_ASIDE] -= kept_off(memory)
     soles = along(heading, seen.soles - seen.qpos[:, None, :3])
     out[:, FEET_RISE], out[:, FEET_AHEAD], out[:, FEET_LEFT] = (
         soles[:, :, 2],
@@ -273,14 +285,24 @@ def targets(memory: NDArray[np.float64], motion: Motion) -> NDArray[np.float64]:
     middle = motion.at(memory[:, PHASE] + 0.5 * POLICY_DT * pace, speed, memory[:, RUNNING])
     usual = motion.period(speed) * pace  # the reference's rates are those of its own pace
     moving = middle.read(motion.rates) * usual[:, None]
-    found = middle.read(motion.joints) + LEAD * moving
-    swing = (found - middle.read_rows(motion.means))[:, SWINGING]
-    found[:, SWINGING] += memory[:, ARM_SWING, None] * swing
-    found[:, SPREADING] += memory[:, SPREAD, None]
-    found[:, LEANING] += memory[:, TRUNK_LEAN]
-    found += SCALE * memory[:, ACTION.start : ACTION.stop - 1]
+    found = styled(memory, middle.read(motion.joints) + LEAD * moving, middle.read_rows(motion.means))
+    decided = SCALE * memory[:, ACTION.start : ACTION.stop - 1]
+    decided[:, SWINGING] *= 1.0 + memory[:, ARM_SWING, None]
+    found += decided
     phase = memory[:, PHASE] + (0.5 * POLICY_DT + LEAD) * pace
     found[:, HIP_ROTATIONS] += turned_in(turned_feet(memory, phase, period))
+    return found + corrections(memory, speed, phase)
+
+
+def styled(
+    memory: NDArray[np.float64], joints: NDArray[np.float64], means: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """``joints`` (n, 24) [rad] of the motion in each person's own style; ``means`` (n, 24) over the cycle."""
+    found = joints.copy()
+    found[:, SWINGING] += memory[:, ARM_SWING, None] * (joints - means)[:, SWINGING]
+    found[:, SPREADING] += memory[:, SPREAD, None]
+    found[:, LEANING] += memory[:, TRUNK_LEAN]
+    found[:, ARMS_ASIDE] += kept_off(memory)
     return found
 
 
@@ -322,9 +344,11 @@ def _stands(
     """Who may begin to stand, and who has to make a step, (n,)."""
     miss, off = standing_miss(memory, motion, seen)
     bears = seen.forces.reshape(-1, 2, 2).sum(axis=2).min(axis=1) > BEARS * BODY_WEIGHT
-    calm = np.hypot(memory[:, LAG_AHEAD] + memory[:, SPEED], memory[:, LAG_LEFT]) < CALM
+    speed = np.hypot(memory[:, LAG_AHEAD] + memory[:, SPEED], memory[:, LAG_LEFT])
+    late = (speed < ALL_CALM) & (miss < ALL_BUT) & (memory[:, RESTED] > CATCHES)
+    calm = np.where(bears, (speed < CALM) & (miss < MOST_MISS), late)
     calm &= np.abs(memory[:, TURN_RATE]) < FACING
-    return calm & bears & (miss < MOST_MISS) & (np.abs(off) < FEET_OFF).all(axis=1), miss > REACH
+    return calm & (np.abs(off) < FEET_OFF).all(axis=1), miss > REACH
 
 
 def advance(
@@ -370,7 +394,8 @@ def advance(
     lag = memory[:, LAG_AHEAD] + memory[:, TRIM] * steadies
     steady = np.abs(wanted) < STEADY
     off = np.where(fast, np.minimum(MOST_BEHIND + LATER * told, MOST_LATE), MOST_BEHIND)
-    behind = waits & (lag < -off)
+    askew = np.abs(wrap(yaw - memory[:, HEADING])) > FACES_WITHIN
+    behind = (waits & (lag < -off)) | (steadies & askew & ~fast)
     wanted = np.where(behind, np.minimum(wanted, 0.0), wanted)
     most, less, full = RUN_BRAKING
     runs = np.clip((told - less) / (full - less), 0.0, 1.0) * fast
@@ -381,7 +406,9 @@ def advance(
     memory[:, TOLD] += change
     memory[:, CHANGE] += CHANGE_SHARE * (change / POLICY_DT - memory[:, CHANGE])
     slow = np.clip(1.0 - memory[:, TOLD] / REST_TRIM_ENDS, 0.0, 1.0) * memory[:, RUNNING]
-    slow *= to_stand & steadies
+    creeps = np.hypot(memory[:, LAG_AHEAD] + memory[:, SPEED], memory[:, LAG_LEFT]) < CREEPS
+    creeps |= memory[:, RESTED] > CATCHES
+    slow *= (asked[:, ASKED_SPEED] < AT_REST) & (creeps | (np.abs(memory[:, TURN_RATE]) > FACING)) & steadies
     pull = TRIM_RATE + slow * (REST_TRIM_RATE - TRIM_RATE)
     trim = memory[:, TRIM] + pull * POLICY_DT * (memory[:, TOLD] - v[:, 0])
     trim = np.where(fast & ~steady, memory[:, TRIM] * (1.0 - UNWINDS), trim)

@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 from locomotion.body.person import CONTROL_DT, JOINT_NAMES, MASS
 
 __all__ = [
-    "ACTION", "ACTIONS", "ANGLES", "ANKLE_SOLE", "ARM_SWING", "ASKED", "ASKED_SPEED", "ASKED_TURN",
-    "BODY_WEIGHT", "CHANGE", "CHANGE_SEEN", "CONTACTS", "FAST", "FAST_RATE", "FEET_AHEAD", "FEET_LEFT",
-    "FEET_RISE", "FELT_SIZE", "FLOOR", "FORCES", "GRAVITY_UP", "HEADING", "HEAD_BEND", "HEELS_AND_BALLS",
-    "HEIGHT_SEEN", "HIP_ROTATIONS", "INPUTS", "JOINTS", "LAGS", "LAG_AHEAD", "LAG_LEFT", "LEAD", "LEANING",
-    "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "MOST_INPUT", "PHASE", "POLICY_DT", "RATES",
-    "RATE_GAIN", "RESTED", "RUNNING", "SCALE", "SIGN_ACTION", "SIGN_JOINT", "SIGN_OBSERVED",
-    "SLOW_RATE", "SOLES", "SOLE_POINTS", "SPEED", "SPIN", "SPREAD", "SPREADING", "STARTED", "STATE_SIZE",
-    "STEP_RATE", "STYLE", "SWINGING", "TICKS_PER_DECISION", "TIMING", "TIP", "TOLD", "TRIM", "TRUNK_LEAN",
-    "TURN_RATE", "VELOCITY", "YAW_SEEN",
+    "ACTION", "ACTIONS", "ANGLES", "ANKLES", "ANKLE_SOLE", "ARMS_ASIDE", "ARM_SWING", "ASKED", "ASKED_SPEED",
+    "ASKED_TURN", "BODY_WEIGHT", "CHANGE", "CHANGE_SEEN", "CONTACTS", "FAST", "FAST_RATE", "FEET_AHEAD",
+    "FEET_LEFT", "FEET_RISE", "FELT_SIZE", "FLOOR", "FORCES", "GRAVITY_UP", "HEADING", "HEAD_BEND",
+    "HEELS_AND_BALLS", "HEIGHT_SEEN", "HIP_ROTATIONS", "INPUTS", "JOINTS", "LAGS", "LAG_AHEAD",
+    "LAG_LEFT", "LEAD", "LEANING", "MIRROR_ACTION", "MIRROR_JOINT", "MIRROR_OBSERVED", "MOST_INPUT",
+    "PHASE", "POLICY_DT", "RATES", "RATE_GAIN", "RESTED", "RUNNING", "SCALE", "SIGN_ACTION", "SIGN_JOINT",
+    "SIGN_OBSERVED", "SLOW_RATE", "SOLES", "SOLE_POINTS", "SPEED", "SPIN", "SPREAD", "SPREADING",
+    "STARTED", "STATE_SIZE", "STEP_RATE", "STYLE", "SWINGING", "TICKS_PER_DECISION", "TIMING", "TIP",
+    "TOLD", "TRIM", "TRUNK_LEAN", "TURN_RATE", "VELOCITY", "YAW_SEEN",
 ]  # fmt: skip
 
 TICKS_PER_DECISION = 2
@@ -46,8 +46,11 @@ HIP_ROTATIONS = [JOINTS.index(f"{side}_hip_rotation") for side in ("right", "lef
 """Of `JOINTS`."""
 SWINGING = [k for k, name in enumerate(JOINTS) if name.endswith(("shoulder_flexion", "elbow_flexion"))]
 SPREADING = [k for k, name in enumerate(JOINTS) if name.endswith(("hip_abduction", "ankle_inversion"))]
+ANKLES = [JOINTS.index(f"{side}_ankle_flexion") for side in ("right", "left")]
 LEANING = JOINTS.index("waist_pitch")
-"""Of `JOINTS`: those with which arms swing, legs are spread while feet stay level, and the trunk leans."""
+ARMS_ASIDE = [k for k, name in enumerate(JOINTS) if name.endswith("shoulder_abduction")]
+"""Of `JOINTS`: those with which arms swing, legs are spread while feet stay level, toes are raised, the trunk
+leans, and arms are held aside."""
 HEELS_AND_BALLS = [0, 1, 3, 4]
 """Of `SOLE_POINTS`."""
 

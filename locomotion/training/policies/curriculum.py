@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-__all__ = ["RUNNING", "STANDING", "WALKING", "Stage"]
+__all__ = ["CATCHING", "RUNNING", "STANDING", "WALKING", "Stage"]
 
 
 @dataclass(frozen=True)
@@ -22,6 +22,7 @@ class Stage:
       runs: whether running is learned, and slowing down from it, and not the walk.
       from_starts: share of those who begin in one of the given states, if there are any.
       changes: [s] on average from one order to the next; 0: they do not change.
+      traits: share of those who have a style of their own (`locomotion.gaits.policy.style`).
       steadies: whether people are helped not to creep away in place and to keep their speed, as in worlds.
       waits: whether the policy is not told to be faster while its body is too slow, as in worlds. That
         teaches a safe walk, but a slow one; without it the policy learns to keep up.
@@ -43,6 +44,7 @@ class Stage:
     runs: bool = False
     from_starts: float = 0.0
     changes: float = 0.0
+    traits: float = 0.0
     steadies: bool = False
     waits: bool = True
     noise: tuple[float, float] = (0.2, 0.2)
@@ -100,9 +102,17 @@ RUNNING = (
         changes=1.5, steadies=True, noise=(0.1, 0.075), fall=40.0, longest=600,
         weights={"speed": 0.4, "nears": 0.3, "catches": 0.6, "impact": -0.4, "pace": -1.5, "slip": -1.0},
     ),
+    Stage(
+        "by anybody", 10_000_000, (1.0, 5.3), turn=1.0, push=300.0, slope=0.05, runs=True, from_starts=0.4,
+        changes=1.5, traits=0.5, steadies=True, noise=(0.1, 0.075), fall=40.0, longest=600,
+        weights={
+            "pose": 0.5, "feet": 0.3, "speed": 0.4, "nears": 0.3, "catches": 0.6, "impact": -0.8,
+            "pace": -3.0, "slip": -1.5, "brush": -1.5,
+        },
+    ),
 )  # fmt: skip
 """Running at 1 to 5.3 m/s, begun on the finished walk: setting off, slowing down, also out of a planned run,
-and in the end keeping up with orders that change all the time."""
+keeping up with orders that change all the time, and by people who differ."""
 
 STANDING = (
     Stage(
@@ -115,3 +125,15 @@ STANDING = (
     ),
 )  # fmt: skip
 """Standing after the walk came to rest."""
+
+CATCHING = (
+    Stage(
+        "thrown off a stand", 8_000_000, (0.3, 2.2), turn=1.3, push=300.0, slope=0.05, stand=0.3,
+        from_starts=0.5, changes=2.5, traits=0.5, waits=False, noise=(0.1, 0.075), fall=40.0, longest=500,
+        weights={
+            "load": 0.6, "rise": 0.5, "impact": 0.0, "blow": -0.5, "slip": -2.0, "change": -0.1,
+            "nears": 0.3, "catches": 0.6, "pace": -1.0,
+        },
+    ),
+)  # fmt: skip
+"""The walk once more, with softer steps, and with people whom a push has just thrown off their stand."""

@@ -1,6 +1,5 @@
 """Many people at once who walk as a policy decides, with pushes, slopes and changing orders."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,10 +8,13 @@ import numpy as np
 from mujoco import rollout
 from numpy.typing import NDArray
 
+from locomotion.body.traits import SPREAD as DEVIATIONS
+from locomotion.body.traits import TRAITS
 from locomotion.gaits.policy import law
 from locomotion.gaits.policy.layout import (
     ACTION,
     ACTIONS,
+    ARM_SWING,
     ASKED_SPEED,
     CHANGE,
     FAST,
@@ -28,19 +30,25 @@ from locomotion.gaits.policy.layout import (
     RUNNING,
     SOLES,
     SPEED,
+    SPREAD,
     STATE_SIZE,
+    STYLE,
+    SWINGING,
     TOLD,
     TURN_RATE,
 )
 from locomotion.gaits.policy.motion import Motion
+from locomotion.gaits.policy.style import style_of
 from locomotion.training.policies.curriculum import Stage
 from locomotion.training.policies.figure import Figure
 from locomotion.training.policies.reference import Reference, quaternions
 from locomotion.training.policies.rewards import Moment, rewards, sway_off, total
+from locomotion.training.policies.starts import Starts
 
-__all__ = ["Environment", "Outcome", "Starts", "motion_of", "where_it_ended"]
+__all__ = ["Environment", "Outcome", "motion_of"]
 
 THREADS = 2
+_USUAL = np.array([usual for usual, _, _ in TRAITS.values()])
 _STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
 _CONTROL = int(mujoco.mjtState.mjSTATE_CTRL) | int(mujoco.mjtState.mjSTATE_XFRC_APPLIED)
 _GRAVITY = 9.81
@@ -55,6 +63,7 @@ _TURNING, _BEGIN_TURNING = 0.6, 0.7  # shares of the orders that turn
 _CAUGHT, _CAUGHT_SPEEDS = 0.5, (0.25, 0.9)
 # share of those who begin in a stand, and stay, whom a push has thrown off it, and how fast they are [m/s]
 _LEANS = 0.5  # share of the angle that would balance a change of speed, by which a runner leans
+_DIFFERS = 2.0  # standard deviations of traits by chance, by which somebody differs at most
 _SETS_OFF = 0.5  # share of those who begin in a stand and are to walk at once
 
 
@@ -77,15 +86,6 @@ def motion_of(reference: Reference) -> Motion:
     right, left = reference.soles[0, 0, HEELS_AND_BALLS].reshape(2, 2, 3).mean(axis=1)
     stance = np.array([0.5 * (right + left)[0], (left - right)[1]])
     return Motion(reference.speeds, reference.periods, reference.joints, reference.rates, stance)
-
-
-@dataclass(frozen=True)
-class Starts:
-    """States from which people may begin, as in `Environment`: (k, ...) each."""
-
-    memory: NDArray[np.float64]
-    physics: NDArray[np.float64]
-    sensed: NDArray[np.float64]
 
 
 class Environment:
@@ -220,6 +220,11 @@ class Environment:
             picked = rng.integers(0, len(self._starts.memory), len(some))
             for name, values in vars(self._starts).items():
                 getattr(self, name)[some] = values[picked]
+        if self.stage.traits:
+            some = ids[rng.random(k) < self.stage.traits]
+            chance = rng.uniform(-1.0, 1.0, (len(some), len(_USUAL)))
+            for i, each in zip(some.tolist(), _USUAL + _DIFFERS * np.array(DEVIATIONS) * chance, strict=True):
+                self.memory[i, STYLE] = style_of(each)
 
     def _put(self, i: int, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
         """Put person ``i`` there, the lowest point of its soles just on the ground."""
@@ -330,14 +335,16 @@ class Environment:
         wanted = np.stack([-np.sin(pitch), np.sin(roll) * np.cos(pitch)], axis=1)
         feet = law.along(memory[:, HEADING], seen.soles - self.qpos[:, None, :3])
         turned = law.turned_feet(memory, memory[:, PHASE], law.own_period(memory, self.motion))
-        feet -= _turn(place.read(reference.soles), turned)
+        feet -= _turn(_spread(place.read(reference.soles), memory[:, SPREAD]), turned)
         velocity = law.along(memory[:, HEADING], self.qvel[:, :3]) - root[:, 5:8]
         velocity[:, 0] += (speed - memory[:, SPEED]) * memory[:, FAST]  # a run is to come to the speed told
-        joints = place.read(reference.joints)
+        joints = law.styled(memory, place.read(reference.joints), place.read_rows(self.motion.means))
         joints[:, HIP_ROTATIONS] += law.turned_in(turned)
+        rates = place.read(reference.rates)
+        rates[:, SWINGING] *= 1.0 + memory[:, ARM_SWING, None]
         return Moment(
             angles=seen.angles - joints,
-            rates=seen.rates - place.read(reference.rates),
+            rates=seen.rates - rates,
             feet=feet[:, [0, 2, 3, 5]],
             up=up[:, :2] - wanted,
             yaw=law.wrap(yaw - memory[:, HEADING] - facing),
@@ -383,23 +390,12 @@ def _turn(soles: NDArray[np.float64], turned: NDArray[np.float64]) -> NDArray[np
     return found.reshape(soles.shape)
 
 
+def _spread(soles: NDArray[np.float64], angles: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Soles (n, 6, 3) from the root, right and left, of legs spread by ``angles`` (n,) [rad] more."""
+    found = soles.copy()
+    found[:, :, 1] -= angles[:, None] * soles[:, :, 2] * np.repeat([-1.0, 1.0], 3)
+    return found
+
+
 def _pick(seen: law.Seen, who: NDArray[np.bool_]) -> law.Seen:
     return law.Seen(*(values[who] for values in vars(seen).values()))
-
-
-def where_it_ended(
-    environment: Environment,
-    decide: Callable[[NDArray[np.float64]], NDArray[np.floating]],
-    most: int = 300,
-) -> Starts | None:
-    """How people are for whom the other network takes over, as ``decide`` moves them for ``most`` decisions:
-    who comes to rest, or, in a stage that ``stands``, who has to make a step. None if there are none."""
-    found: dict[str, list[NDArray[np.float64]]] = {name: [] for name in ("memory", "physics", "sensed")}
-    for _ in range(most):
-        outcome = environment.step(decide(environment.observe()))
-        found["memory"].append(outcome.switched[outcome.changes])
-        found["physics"].append(environment.physics[outcome.changes])
-        found["sensed"].append(environment.sensed[outcome.changes])
-        environment.reset(outcome.fell | outcome.over)
-    starts = Starts(**{name: np.concatenate(values) for name, values in found.items()})
-    return starts if len(starts.memory) else None

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from locomotion.gaits.policy.law import pace_share
+from locomotion.gaits.policy.law import along, pace_share
 from locomotion.gaits.policy.layout import (
     ACTION,
     BODY_WEIGHT,
     FAST,
+    HEADING,
     JOINTS,
     LAG_AHEAD,
     LAG_LEFT,
@@ -33,16 +34,21 @@ WEIGHTS: dict[str, float] = {
     "effort": -0.01,
     "pace": -0.05,
     "impact": -0.2,
+    "blow": 0.0,
     "slip": -0.8,
+    "brush": 0.0,
 }
 TERMS = tuple(WEIGHTS)
 """Names of the terms. Up to 1 for being like the reference: ``pose`` (joint angles), ``rates``, ``feet``
 (heels and tips from the root), ``root`` (attitude, height, spin), ``speed``, ``nears`` and ``catches`` (the
 same, but also felt far off, and from anywhere), ``load`` (what each foot bears), ``rise`` (speed up and
-down). At a cost: ``change`` and ``effort`` of decisions, ``pace`` other than the usual, ``impact`` above 1.5
-body weights, ``slip``: speed of the lowest point of a foot, toes included, that touches the ground [m/s]."""
-_FIRM, _FIRM_RUN = 1.5, 2.8  # [body weights]
+down). At a cost: ``change`` and ``effort`` of decisions, ``pace`` other than the usual, ``impact`` of a foot
+above 1.5 body weights, or 2.3 in a run, ``blow`` of both together above 1.4, ``slip``: speed of the lowest
+point of a foot, toes included, that touches the ground [m/s]; ``brush``: one foot passes the other so near
+that it goes through the other leg."""
+_FIRM, _FIRM_RUN, _BLOW = 1.5, 2.3, 1.4  # [body weights]
 _FAR_OFF, _FARTHEST = 0.15, 0.1  # shares of the error of the speed that count
+_PASSES, _ASIDE = 0.2, 0.085  # [m] ahead of the other foot, and to its side, within which a foot brushes
 _TOUCHES = 12.0  # per body weight: a tenth of it counts nearly as the whole
 _WEIGHTED = {
     "knee_flexion": 2.0,
@@ -109,10 +115,13 @@ def rewards(m: Moment) -> dict[str, NDArray[np.float64]]:
     per_foot = m.forces.reshape(*m.forces.shape[:2], 2, 2).sum(3) / BODY_WEIGHT
     firm = np.where(m.memory[:, FAST] > 0.0, _FIRM_RUN, _FIRM)
     over = np.clip(per_foot.max(1) - firm[:, None], 0.0, 2.0)
+    blow = np.clip(per_foot.sum(2).max(1) - _BLOW, 0.0, 2.0)
     bears = per_foot.mean(1)
     gone = np.linalg.norm(m.soles[:, :, :2] - m.soles_before[:, :, :2], axis=2) / POLICY_DT
     lowest = m.soles[:, :, 2].reshape(-1, 2, 3).argmin(axis=2)
     lowest_moved = np.take_along_axis(gone.reshape(-1, 2, 3), lowest[:, :, None], axis=2)[:, :, 0]
+    apart = along(m.memory[:, HEADING], np.diff(m.soles.reshape(-1, 2, 3, 3)[:, :, :2].mean(axis=2), axis=1))
+    near = np.clip(1.0 - apart[:, 0, 1] / _ASIDE, 0.0, 1.0) * (np.abs(apart[:, 0, 0]) < _PASSES)
     return {
         "pose": np.exp(-2.0 * (LIKENESS * m.angles**2).sum(1)),
         "rates": np.exp(-0.02 * (LIKENESS * m.rates**2).sum(1)),
@@ -127,7 +136,9 @@ def rewards(m: Moment) -> dict[str, NDArray[np.float64]]:
         "effort": (action**2).mean(1),
         "pace": (pace_share(m.memory) - 1.0) ** 2,
         "impact": (over**2).sum(1),
+        "blow": blow**2,
         "slip": (np.clip(lowest_moved, 0.0, 1.0) * np.tanh(_TOUCHES * bears)).sum(1),
+        "brush": near,
     }
 
 

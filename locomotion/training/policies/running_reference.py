@@ -38,6 +38,7 @@ _GRAVITY = 9.81
 _LEAN = math.radians(6.0)
 _HALF_WIDTH, _TOE_OUT = 0.035, math.radians(5.0)
 _CLEARANCE = 0.04
+_ARMS_LEAD = 0.14  # of the cycle: a shoulder is bent most soon after its own side's foot has left the ground
 _MOST_ANKLE = 28.0  # [deg] upwards: the joint ends at 30
 _KNOTS = {
     "hip_flexion": ((0, 36), (0.25, 32), (0.5, 20), (0.75, 5), (1, -8), (1.1, -10), (1.3, 10), (1.5, 36),
@@ -80,8 +81,9 @@ class _Run(Gait):
              math.radians(5.0) * wave], axis=1,
         )  # fmt: skip
         vigour = 0.8 + 0.2 * (self.speed - 2.6) / 2.4
-        self.put("shoulder_flexion", math.radians(-12.0) - vigour * math.radians(32.0) * wave)
-        self.put("elbow_flexion", math.radians(88.0) - vigour * math.radians(14.0) * wave)
+        arms = np.cos(2 * np.pi * (SHARES + _ARMS_LEAD))
+        self.put("shoulder_flexion", math.radians(-12.0) - vigour * math.radians(32.0) * arms)
+        self.put("elbow_flexion", math.radians(88.0) - vigour * math.radians(14.0) * arms)
         self.put("shoulder_abduction", np.full(SAMPLES, math.radians(10.0)))
         roll, yaw = self.attitude[:, 0], self.attitude[:, 2]
         self.joints[:, JOINTS.index("waist_roll")] = -roll

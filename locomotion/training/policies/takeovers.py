@@ -19,8 +19,8 @@ from locomotion.training.gaits.brake import draw_starts
 from locomotion.training.gaits.gait_state import gait_state
 from locomotion.training.gaits.grounds import training_ground
 from locomotion.training.gaits.path_trial import straight_on
-from locomotion.training.policies.environment import Starts
 from locomotion.training.policies.figure import Figure
+from locomotion.training.policies.starts import Starts
 
 __all__ = ["out_of_runs", "takeovers"]
 

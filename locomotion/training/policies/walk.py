@@ -9,11 +9,13 @@ from functools import partial
 from locomotion.body.person import person_digest
 from locomotion.gaits.policy.skill import WALK_POLICY, PolicySkill
 from locomotion.training.policies.agent import Agent
-from locomotion.training.policies.curriculum import RUNNING, STANDING, WALKING, Stage
-from locomotion.training.policies.environment import Environment, Starts, motion_of, where_it_ended
+from locomotion.training.policies.curriculum import CATCHING, RUNNING, STANDING, WALKING, Stage
+from locomotion.training.policies.endings import where_it_ended
+from locomotion.training.policies.environment import Environment, motion_of
 from locomotion.training.policies.learning import Learning, tells
 from locomotion.training.policies.reference import make_reference
 from locomotion.training.policies.running_reference import with_run
+from locomotion.training.policies.starts import Starts, together
 from locomotion.training.policies.takeovers import out_of_runs, takeovers
 from locomotion.training.policies.trial import PolicyTrial
 from locomotion.training.search.checkpoint import claim
@@ -28,15 +30,19 @@ _STANDS, _WALKS = 6.0, 12.0  # [s]
 _PEOPLE = 256  # who learn at once
 _JUDGES, _FAR_SIGHTED = 40, 0.985  # of the run: `Learning.judges`, and its discount
 _TAKEOVERS, _OUT_OF_RUNS = 6000, 3000  # states of planned walks, and runs, from which some begin
+_STANDERS, _PUSHED_FOR = 512, 1500  # people who are pushed off their stand, and decisions for which they are
 
 
 def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POLICY) -> PolicySkill:
-    """Train the walk, then the run from there, and the stand from how walks end; write all to ``out``."""
-    walking, running, standing = (_scaled(stages, training.effort) for stages in (WALKING, RUNNING, STANDING))
+    """Train the walk, then the run from there, the stand from how walks end, and the walk once more from how
+    stands end; write all to ``out``."""
+    walking, running, standing, catching = (
+        _scaled(stages, training.effort) for stages in (WALKING, RUNNING, STANDING, CATCHING)
+    )
     check_target(out)
     if training.checkpoint is not None:
         asked = {"skill": "walk-policy", "seed": training.seed, "effort": training.effort}
-        stages = hashlib.sha256(repr((walking, running, standing)).encode()).hexdigest()[:16]
+        stages = hashlib.sha256(repr((walking, running, standing, catching)).encode()).hexdigest()[:16]
         claim(training.checkpoint, {**asked, "person": person_digest(), "stages": stages})
     reference = with_run(make_reference())
 
@@ -61,7 +67,11 @@ def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POL
     stops = replace(walking[-1], stand=0.8, push=100.0, steadies=True)
     environment = Environment(reference, stops, _PEOPLE, training.seed)
     ends = where_it_ended(environment, lambda seen: walker.decide(walker.scaled(seen)))
-    stander = learn("stand", standing, 2 * training.seed + 1, ends)
+    stander = learn("stand", standing, 2 * seed + 1, ends)
+    pushes = replace(standing[-1], push=300.0, from_starts=0.0)
+    stands = Environment(reference, pushes, _STANDERS, seed)
+    thrown = where_it_ended(stands, lambda seen: stander.decide(stander.scaled(seen)), _PUSHED_FOR)
+    walker = learn("catch", catching, 2 * seed, together(takeovers(_TAKEOVERS, seed), thrown), walker)
     motion, meta = motion_of(reference), training.made_by("walk-policy")
     skill = PolicySkill(motion, walker.network, stander.network, runner.network, meta)
     _demand_success(skill)

@@ -57,7 +57,7 @@ def test_the_end_of_the_way_that_it_leaves_is_not_reported(world):
     """It comes to its goal while the next order is planned."""
     agent = world.spawn("human", (5.0, 5.0, 0.0))
     agent.go_to((8.0, 5.0, 0.0), speed=1.4)
-    while agent.human.follower.remaining > 0.16 or is_planning(agent):
+    while agent.human.follower.remaining > 0.4 or is_planning(agent):
         world.step(0.01)
     list(world.events)
     agent.go_to((30.0, 12.0, 0.0), speed=1.4)

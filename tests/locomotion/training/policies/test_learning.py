@@ -3,13 +3,30 @@
 from dataclasses import replace
 from functools import partial
 
+import mujoco
 import numpy as np
 
+from locomotion.gaits.policy import law
 from locomotion.gaits.policy.law import LIFT_OFF
-from locomotion.gaits.policy.layout import ACTIONS, CHANGE, JOINTS, LAG_AHEAD, PHASE, RESTED
+from locomotion.gaits.policy.layout import (
+    ACTIONS,
+    ARM_SWING,
+    CHANGE,
+    HEADING,
+    JOINTS,
+    LAG_AHEAD,
+    PHASE,
+    SOLES,
+    SPEED,
+    SPREAD,
+    STYLE,
+    SWINGING,
+    TRUNK_LEAN,
+    TURN_RATE,
+)  # fmt: skip
 from locomotion.gaits.policy.layout import RUNNING as GOES_ON
 from locomotion.training.policies.curriculum import RUNNING, STANDING, WALKING
-from locomotion.training.policies.environment import Environment, where_it_ended
+from locomotion.training.policies.environment import Environment
 from locomotion.training.policies.learning import LENGTH, Learning
 
 PEOPLE = 6
@@ -109,19 +126,6 @@ def decides_nothing(seen):
     return np.zeros((len(seen), ACTIONS))
 
 
-def test_who_could_stand_steps_on_while_the_walk_is_learned(reference):
-    stage = replace(WALKING[2], speeds=(0.0, 0.0), stand=1.0, push=0.0, longest=200)
-    environment = Environment(reference, stage, 40, seed=0)
-    environment.memory[:, RESTED] = 1.0
-    found = where_it_ended(environment, decides_nothing, most=14)
-    assert found is not None
-    assert (found.memory[:, GOES_ON] == 0.0).all()
-    assert (environment.memory[:, GOES_ON] == 1.0).all()
-    standing = Environment(reference, STANDING[0], 40, seed=0, starts=found)
-    taken = (standing.physics[:, None] == found.physics[None]).all(axis=2).any(axis=1)
-    assert 0.3 < taken.mean() < 1.0
-
-
 def test_a_stand_is_over_for_who_has_to_step(reference):
     environment = Environment(reference, replace(STANDING[0], push=0.0, slope=0.0), 40, seed=0)
     environment.qvel[:20, 0] = 1.0
@@ -140,3 +144,36 @@ def test_whom_a_push_throws_off_a_stand_steps_with_the_foot_that_bears_less(refe
     assert fast[begins].mean() > 0.4
     leftward = environment.qvel[:, 1] > 0.3
     assert (environment.memory[begins & leftward, PHASE] == LIFT_OFF + 0.5).all()
+
+
+def test_some_move_in_a_style_of_their_own(reference):
+    stage = replace(WALKING[-1], traits=0.5, from_starts=0.0)
+    styles = Environment(reference, stage, 400, seed=2).memory[:, STYLE]
+    differ = (styles != 0.0).all(axis=1)
+    assert 0.4 < differ.mean() < 0.6
+    assert (styles[~differ] == 0.0).all()
+    np.testing.assert_allclose(styles[differ].mean(axis=0), 0.0, atol=0.05)
+    assert (styles[differ].std(axis=0) > [0.02, 0.2, 0.01, 0.03, 0.05]).all()
+
+
+def test_who_moves_in_its_own_style_is_as_the_reference(reference):
+    """Pose, rates and feet are off by nothing, though the style has moved them."""
+    stage = replace(WALKING[1], speeds=(1.25, 1.25), turn=0.0, push=0.0, slope=0.0)
+    environment = Environment(reference, stage, 8, seed=0)
+    memory, figure = environment.memory, environment.figure
+    memory[:, TURN_RATE] = memory[:, HEADING] = 0.0
+    usual = environment.motion.at(memory[:, PHASE], memory[:, SPEED], memory[:, GOES_ON])
+    memory[:, [ARM_SWING, SPREAD, TRUNK_LEAN]] = 0.3, 0.04, 0.05
+    joints = law.styled(memory, usual.read(reference.joints), usual.read_rows(environment.motion.means))
+    rates = usual.read(reference.rates)
+    rates[:, SWINGING] *= 1.3
+    data = mujoco.MjData(environment.model)
+    for i in range(8):
+        environment.qpos[i, figure.angles], environment.qvel[i, figure.rates] = joints[i], rates[i]
+        data.qpos[:] = environment.qpos[i]
+        mujoco.mj_kinematics(environment.model, data)
+        environment.sensed[i, SOLES] = data.site_xpos[figure.soles].ravel()
+    moment = environment.moment(np.zeros((8, 1, 4)), environment.soles, np.zeros((8, ACTIONS)))
+    np.testing.assert_allclose(moment.angles, 0.0, atol=1e-9)
+    np.testing.assert_allclose(moment.rates, 0.0, atol=1e-9)
+    assert np.abs(moment.feet[:, :, 1]).max() < 0.015  # of 0.035 m that each foot is farther aside

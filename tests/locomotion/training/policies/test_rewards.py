@@ -10,6 +10,7 @@ from locomotion.gaits.policy.layout import (
     ACTIONS,
     BODY_WEIGHT,
     FAST,
+    HEADING,
     JOINTS,
     LAG_AHEAD,
     POLICY_DT,
@@ -21,11 +22,12 @@ from locomotion.training.policies.rewards import LIKENESS, TERMS, WEIGHTS, Momen
 @pytest.fixture
 def same() -> Moment:
     """One person who is exactly as the reference and bears on nothing."""
-    n = len(JOINTS)
+    n, soles = len(JOINTS), np.zeros((1, 6, 3))
+    soles[0, 3:, 1] = 0.1
     return Moment(
         angles=np.zeros((1, n)), rates=np.zeros((1, n)), feet=np.zeros((1, 4, 3)), up=np.zeros((1, 2)),
         yaw=np.zeros(1), spin=np.zeros((1, 3)), height=np.zeros(1), velocity=np.zeros((1, 3)),
-        forces=np.zeros((1, 4, 4)), soles=np.zeros((1, 6, 3)), soles_before=np.zeros((1, 6, 3)),
+        forces=np.zeros((1, 4, 4)), soles=soles, soles_before=soles.copy(),
         loads=np.zeros((1, 2)), memory=np.zeros((1, STATE_SIZE)), decided_before=np.zeros((1, ACTIONS)),
     )  # fmt: skip
 
@@ -33,8 +35,10 @@ def same() -> Moment:
 def test_who_is_as_the_reference_gets_all_and_pays_nothing(same):
     terms = rewards(same)
     assert tuple(terms) == TERMS
-    for name, weight in WEIGHTS.items():
-        assert terms[name][0] == (1.0 if weight >= 0.0 else 0.0)
+    costs = {"change", "effort", "pace", "impact", "blow", "slip", "brush"}
+    assert all((weight <= 0.0) == (name in costs) for name, weight in WEIGHTS.items() if weight)
+    assert {name for name in TERMS if terms[name][0] == 0.0} == costs
+    assert {name for name in TERMS if terms[name][0] == 1.0} == set(TERMS) - costs
     assert total(terms, {})[0] == pytest.approx(sum(w for w in WEIGHTS.values() if w > 0))
     assert total(terms, {"pose": 2.0})[0] - total(terms, {})[0] == pytest.approx(2.0 - WEIGHTS["pose"])
 
@@ -70,10 +74,18 @@ def test_an_impact_above_one_and_a_half_body_weights(same):
     assert rewards(replace(same, forces=forces))["impact"][0] == pytest.approx(0.9**2)
 
 
+def test_both_feet_together_above_one_and_two_fifths_of_the_weight(same):
+    forces = same.forces.copy()
+    forces[0, 2, [0, 2]] = 1.0 * BODY_WEIGHT  # a body weight under each foot, in one step
+    terms = rewards(replace(same, forces=forces))
+    assert terms["blow"][0] == pytest.approx(0.6**2)
+    assert terms["impact"][0] == 0.0
+
+
 def test_who_runs_may_land_harder(same):
     forces, memory = same.forces.copy(), same.memory.copy()
     forces[0, 2, :2], memory[0, FAST] = 1.6 * BODY_WEIGHT, 1.0
-    assert rewards(replace(same, forces=forces, memory=memory))["impact"][0] == pytest.approx(0.4**2)
+    assert rewards(replace(same, forces=forces, memory=memory))["impact"][0] == pytest.approx(0.9**2)
 
 
 def test_a_foot_that_slips_over_its_lowest_point(same):
@@ -99,3 +111,15 @@ def test_decisions_and_another_pace(same):
     terms = rewards(replace(same, memory=memory))
     assert terms["change"][0] == terms["effort"][0] == pytest.approx(0.25)
     assert terms["pace"][0] == pytest.approx(0.2**2)
+
+
+@pytest.mark.parametrize(
+    ("ahead", "aside", "brushes"), [(0.1, 0.034, 0.6), (0.1, -0.05, 1.0), (0.3, 0.0, 0.0)]
+)
+def test_a_foot_that_passes_too_near_to_the_other_leg(same, ahead, aside, brushes):
+    heading, soles, memory = 0.7, np.zeros((1, 6, 3)), same.memory.copy()
+    c, s = np.cos(heading), np.sin(heading)
+    soles[0, 3:, :2] = c * ahead - s * aside, s * ahead + c * aside
+    memory[0, HEADING] = heading
+    found = rewards(replace(same, soles=soles, memory=memory))["brush"][0]
+    assert found == pytest.approx(brushes)

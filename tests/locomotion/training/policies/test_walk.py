@@ -6,7 +6,7 @@ import pytest
 
 from locomotion.errors import LocomotionError
 from locomotion.training.policies import walk
-from locomotion.training.policies.curriculum import RUNNING, STANDING, WALKING
+from locomotion.training.policies.curriculum import CATCHING, RUNNING, STANDING, WALKING
 from locomotion.training.policies.walk import train_walk_policy
 from locomotion.training.training import NotLearnedError, Training
 
@@ -18,6 +18,8 @@ def test_what_does_not_walk_is_not_written(tmp_path, monkeypatch, reference, bot
     monkeypatch.setattr(walk, "RUNNING", RUNNING[:1])
     monkeypatch.setattr(walk, "STANDING", STANDING[:1])
     monkeypatch.setattr(walk, "_PEOPLE", 16)
+    monkeypatch.setattr(walk, "_STANDERS", 16)
+    monkeypatch.setattr(walk, "_PUSHED_FOR", 40)
     monkeypatch.setattr(walk, "_TAKEOVERS", 30)
     monkeypatch.setattr(walk, "_OUT_OF_RUNS", 30)
     monkeypatch.setattr(walk, "make_reference", lambda: reference)
@@ -25,6 +27,6 @@ def test_what_does_not_walk_is_not_written(tmp_path, monkeypatch, reference, bot
     with pytest.raises(NotLearnedError, match=r"walk-policy does not work: at 0.8 m/s it falls within 18 s"):
         train_walk_policy(training, tmp_path / "policy.npz")
     assert not (tmp_path / "policy.npz").exists()
-    assert told == dict.fromkeys([WALKING[4].name, RUNNING[0].name, STANDING[0].name], 1)
+    assert told == dict.fromkeys([WALKING[4].name, RUNNING[0].name, STANDING[0].name, CATCHING[0].name], 1)
     with pytest.raises(LocomotionError, match="belongs to another configuration"):
         train_walk_policy(Training(1, tmp_path / "checkpoint", effort=1e-6), tmp_path / "policy.npz")

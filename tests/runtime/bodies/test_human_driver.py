@@ -87,7 +87,7 @@ def test_an_agent_is_pushed_and_a_saved_world_goes_on_alike(graph):
     ada, bob = world.spawn("human", (3.0, 3.0, 0.0)), world.spawn("walker", (6.0, 3.0, 0.0))
     world.step(0.5)
     still = ada.position
-    ada.push((0.0, 150.0, 0.0), 0.1)
+    ada.push((0.0, 250.0, 0.0), 0.1)
     world.step(0.05)
     twin = World(graph, seed=2, rehearsals=0)
     twin.restore(world.save())

@@ -1,6 +1,6 @@
-"""What is added to the targets of a walk, beside what the network decides: figures that it misses alone.
+"""What is added to the targets of a walk, besides what the network decides: it misses some figures by itself.
 
-Each function is here twice: for n people at once, and for one as a kernel (`*_of_one`).
+For n people at once, and as kernels for one.
 """
 
 import math
@@ -9,14 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from locomotion.body.person import JOINT_NAMES
-from locomotion.gaits.policy.layout import (
-    ANKLES,
-    ARMS_ASIDE,
-    FAST,
-    JOINTS,
-    RUNNING,
-    SPREADING,
-)
+from locomotion.gaits.policy.layout import ANKLES, ARMS_ASIDE, FAST, JOINTS, RUNNING, SPREADING
 from surefoot.kernels import kernel
 
 __all__ = ["KEEPS_OFF", "correct_one", "corrections", "kept_off", "kept_off_one"]
@@ -54,10 +47,9 @@ def corrections(
     [m/s] of the reference motion, ``phase`` (n,) of the right foot."""
     found = np.zeros((len(memory), len(JOINTS)))
     found[:, SPREADING] = (WIDENS * np.maximum(speed - WIDENS_FROM, 0.0))[:, None]
-    slow, none, (still, steps) = *SLOWER_THAN, IN_PLACE
-    up = np.clip((slow - speed) / (slow - none), 0.0, 1.0) * np.clip(
-        (speed - still) / (steps - still), 0.0, 1.0
-    )
+    (slow, full), (still, steps) = SLOWER_THAN, IN_PLACE
+    up = np.clip((slow - speed) / (slow - full), 0.0, 1.0)
+    up *= np.clip((speed - still) / (steps - still), 0.0, 1.0)
     share = (phase[:, None] + [0.0, 0.5]) % 1.0
     found[:, ANKLES] = TOES_UP * up[:, None] * np.clip((share - _RAISED) / _RAISES, 0.0, 1.0)
     return found * _walks(memory)[:, None]

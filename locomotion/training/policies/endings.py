@@ -16,8 +16,9 @@ def where_it_ended(
     decide: Callable[[NDArray[np.float64]], NDArray[np.floating]],
     most: int = 300,
 ) -> Starts | None:
-    """How people are for whom the other network takes over, as ``decide`` moves them for ``most`` decisions:
-    who comes to rest, or, in a stage that ``stands``, who has to make a step. None if there are none."""
+    """States of people at the moment another network takes over, as ``decide`` moves them for ``most``
+    decisions: when they come to rest, or, in a stage that ``stands``, when they have to make a step. None if
+    that never happens."""
     found: dict[str, list[NDArray[np.float64]]] = {name: [] for name in ("memory", "physics", "sensed")}
     for _ in range(most):
         outcome = environment.step(decide(environment.observe()))

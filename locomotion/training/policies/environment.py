@@ -9,7 +9,7 @@ from mujoco import rollout
 from numpy.typing import NDArray
 
 from locomotion.body.traits import SPREAD as DEVIATIONS
-from locomotion.body.traits import TRAITS
+from locomotion.body.traits import by_hand
 from locomotion.gaits.policy import law
 from locomotion.gaits.policy.layout import (
     ACTION,
@@ -48,7 +48,6 @@ from locomotion.training.policies.starts import Starts
 __all__ = ["Environment", "Outcome", "motion_of"]
 
 THREADS = 2
-_USUAL = np.array([usual for usual, _, _ in TRAITS.values()])
 _STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
 _CONTROL = int(mujoco.mjtState.mjSTATE_CTRL) | int(mujoco.mjtState.mjSTATE_XFRC_APPLIED)
 _GRAVITY = 9.81
@@ -222,8 +221,10 @@ class Environment:
                 getattr(self, name)[some] = values[picked]
         if self.stage.traits:
             some = ids[rng.random(k) < self.stage.traits]
-            chance = rng.uniform(-1.0, 1.0, (len(some), len(_USUAL)))
-            for i, each in zip(some.tolist(), _USUAL + _DIFFERS * np.array(DEVIATIONS) * chance, strict=True):
+            chance = rng.uniform(-1.0, 1.0, (len(some), len(DEVIATIONS)))
+            for i, each in zip(
+                some.tolist(), by_hand() + _DIFFERS * np.array(DEVIATIONS) * chance, strict=True
+            ):
                 self.memory[i, STYLE] = style_of(each)
 
     def _put(self, i: int, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:

@@ -65,7 +65,7 @@ def train_walk_policy(training: Training, out: str | os.PathLike[str] = WALK_POL
     walker = learn("walk", walking, 2 * seed, takeovers(_TAKEOVERS, seed))
     runner = learn("run", running, seed, out_of_runs(_OUT_OF_RUNS, seed), walker)
     stops = replace(walking[-1], stand=0.8, push=100.0, steadies=True)
-    environment = Environment(reference, stops, _PEOPLE, training.seed)
+    environment = Environment(reference, stops, _PEOPLE, seed)
     ends = where_it_ended(environment, lambda seen: walker.decide(walker.scaled(seen)))
     stander = learn("stand", standing, 2 * seed + 1, ends)
     pushes = replace(standing[-1], push=300.0, from_starts=0.0)

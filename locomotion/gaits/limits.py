@@ -22,6 +22,7 @@ _SLOWEST_RUN = 2.5  # [m/s]: slower it crosses its legs
 _SHARPEST, _STEEPEST = 0.2, 0.12  # [1/m], slope: where it would rather walk
 _SLOWEST, _SIDEWAYS = 0.3, 0.5  # [m/s], [m/s^2] of a walk
 _TIGHT = 0.75, 1.5  # [m/s], [rad/s] of a walk in bends in which that is faster
+_OVER_STEPS = 0.85  # [m/s] of a walk where the ground steps up or down: faster it trips
 _FASTER, _SLOWER = 0.7, 0.5  # [m/s^2] of a walk
 _UPHILL, _DOWNHILL = 1.6, 2.2  # [m/s per unit of slope] of a walk
 _FORESIGHT = 0.8  # [m] of a walk: it takes about two steps to go slower
@@ -49,6 +50,7 @@ def walk_limits(skill: WalkSkill) -> TrackingLimits:
         foresight=_FORESIGHT,
         usual=USUAL_SPEED,
         tight=_TIGHT,
+        steps=_OVER_STEPS,
     )
 
 

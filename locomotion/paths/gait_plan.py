@@ -64,6 +64,7 @@ class Gaits(NamedTuple):
 def plan_gaits(
     table: NDArray[np.float64],
     at: NDArray[np.float64],
+    steps: NDArray[np.bool_],
     speed: float,
     limits: TrackingLimits,
     walk: TrackingLimits,
@@ -72,11 +73,11 @@ def plan_gaits(
     running: bool,
 ) -> Gaits:
     """Write the gaits into ``table`` (n, 8); ``at`` (n,) [m]: arc lengths of its points, with the limits at
-    each. Other arguments as in `tracking.make_path`."""
+    each; ``steps`` (n,): where the ground steps up or down. Other arguments as in `tracking.make_path`."""
     fastest = min(max(speed, limits.speeds[0]), limits.speeds[1])
     slowing = _length_of_slowing(fastest, limits, walk)
     slowest = 0.5 * (walk.speeds[1] + limits.speeds[0])  # slower is nearer to a walk
-    hard = _too_hard(table, limits)
+    hard = _too_hard(table, limits) | (steps & (limits.steps == 0.0))
     runs = _where_to_run(hard, at, speed >= slowest, edges, running, slowing, limits.rest)
     entering = present_speed if running else 0.0
     surely = max(limits.slowing, _SURELY)
@@ -84,7 +85,7 @@ def plan_gaits(
     last_run = np.maximum.accumulate(np.where(runs, at, -math.inf))
     stood = np.maximum.accumulate(np.where(brakes, at, -math.inf)) > last_run
     near = (at - last_run <= slowing) & ~stood & (at <= at[-1] - limits.rest)  # runs, or slows down
-    fast = (speed < slowest) & _can_walk_fast(table, at, runs, walk.foresight) & ~near
+    fast = (speed < slowest) & _can_walk_fast(table, at, runs, walk) & ~near
     if present_speed < walk.calm + _ALREADY:  # keeps a person with ever-changing orders slow
         fast &= at >= _BEGINS
     table[:, GAIT] = np.select([runs, brakes, fast], [RUN, BRAKE, FAST_WALK], WALK)
@@ -178,12 +179,17 @@ def _stretches(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
 
 
 def _can_walk_fast(
-    table: NDArray[np.float64], at: NDArray[np.float64], runs: NDArray[np.bool_], foresight: float
+    table: NDArray[np.float64], at: NDArray[np.float64], runs: NDArray[np.bool_], walk: TrackingLimits
 ) -> NDArray[np.bool_]:
-    """(n,) bool: where the path is level and straight for ``foresight`` [m] before and behind, and no run
-    begins soon."""
-    hardest = np.maximum(np.abs(table[:, SLOPE]) / _LEVEL, np.abs(table[:, CURVATURE]) / _STRAIGHT)
-    easy = maximum_filter1d(hardest, 2 * round(foresight / SPACING) + 1) <= 1.0
+    """(n,) bool: where the path is straight for `TrackingLimits.foresight` before and behind, and level for
+    as far as it takes to slow down, too, and no run begins soon."""
+    slowing = (walk.speeds[1] ** 2 - walk.calm**2) / (2.0 * walk.deceleration)
+    easy = np.ones(len(table), dtype=bool)
+    for column, most, far in (
+        (CURVATURE, _STRAIGHT, walk.foresight),
+        (SLOPE, _LEVEL, walk.foresight + slowing),
+    ):
+        easy &= maximum_filter1d(np.abs(table[:, column]), 2 * round(far / SPACING) + 1) <= most
     next_run = np.minimum.accumulate(np.where(runs, at, math.inf)[::-1])[::-1]
     return easy & (next_run - at >= _CALM)
 

@@ -52,6 +52,7 @@ class TrackingLimits:
         runs.
       tight: [m/s] speed in a bend on level ground that turns it by no more than the second number [rad/s],
         whatever the sideways acceleration.
+      steps: [m/s] where the ground steps up or down; 0: this gait is not used there.
     """
 
     speeds: tuple[float, float]
@@ -67,6 +68,7 @@ class TrackingLimits:
     foresight: float = 0.0
     usual: float = math.inf
     tight: tuple[float, float] = (0.0, 0.0)
+    steps: float = math.inf
 
     @property
     def calm(self) -> float:

@@ -50,6 +50,7 @@ which it wants to stop without having rehearsed it (0: it does not).
 TRACK_SIZE = 14
 _STEP = 0.25
 _STEP_REACH = 0.7  # [m] around an obstacle's edge where its height would show as slope
+_NEAR, _UNEVEN = 0.2, 0.02  # [m] around a step in the ground, and of its height beyond that of a slope
 _LEVEL = 0.05  # slope up to which ground is level
 _BACK, _AHEAD = 0.5, 1.5  # [m] search window around the last foot point
 
@@ -106,13 +107,15 @@ def make_path(
         table[:, k] = np.interp(at, arc, distinct[:, k])
     _directions(table, length / (count - 1))
     crossed = np.atleast_1d(np.asarray(edges, dtype=np.float64))
+    steps = _steps(table, length / (count - 1))
     for edge in crossed:
         table[np.abs(at - edge) < _STEP_REACH, SLOPE] = 0.0
+        steps[np.abs(at - edge) < _STEP_REACH] = False
     table[:, GAIT] = RUN
     gaits = Gaits((limits,), np.zeros(count, np.int64))
     if walk is not None:
-        gaits = plan_gaits(table, at, speed, limits, walk, crossed, present_speed, running)
-    _plan_speed(table, length / (count - 1), speed, gaits, present_speed)
+        gaits = plan_gaits(table, at, steps, speed, limits, walk, crossed, present_speed, running)
+    _plan_speed(table, length / (count - 1), steps, speed, gaits, present_speed)
     return PathTable(table, length, distinct[-1].copy())
 
 
@@ -129,13 +132,30 @@ def _directions(table: NDArray[np.float64], step: float) -> None:
     table[:, SLOPE] = (table[high, Z] - table[low, Z]) / ((high - low) * step)
 
 
-def _plan_speed(table: NDArray[np.float64], step: float, speed: float, gaits: Gaits, present: float) -> None:
-    """``gaits``: the limits at each point of the path."""
+def _steps(table: NDArray[np.float64], step: float) -> NDArray[np.bool_]:
+    """(n,) bool: where the ground steps up or down, instead of sloping."""
+    near = max(round(_NEAR / step), 1)
+    high, low = np.roll(table[:, Z], -near), np.roll(table[:, Z], near)
+    found = np.abs(high - low - 2.0 * near * step * table[:, SLOPE]) > _UNEVEN
+    found[:near] = found[-near:] = False
+    return found
+
+
+def _plan_speed(
+    table: NDArray[np.float64],
+    step: float,
+    steps: NDArray[np.bool_],
+    speed: float,
+    gaits: Gaits,
+    present: float,
+) -> None:
+    """``gaits``: the limits at each point of the path; ``steps`` (n,): where the ground steps up or down."""
     each = [
-        (*g.speeds, g.sideways, *g.tight, g.acceleration, g.deceleration, g.uphill, g.downhill, g.foresight)
+        (*g.speeds, g.sideways, *g.tight, g.acceleration, g.deceleration, g.uphill, g.downhill, g.foresight,
+         g.steps)
         for g in gaits.kinds
-    ]
-    slowest, fastest, sideways, tight, turning, faster, slower, uphill, downhill, foresight = (
+    ]  # fmt: skip
+    slowest, fastest, sideways, tight, turning, faster, slower, uphill, downhill, foresight, over_steps = (
         np.ascontiguousarray(np.array(each).T[:, gaits.at])
     )
     slope = table[:, SLOPE]
@@ -144,6 +164,8 @@ def _plan_speed(table: NDArray[np.float64], step: float, speed: float, gaits: Ga
     seen = round(float(foresight.max()) / step) + 1  # points, this one included
     ahead = maximum_filter1d(slowed, seen, mode="nearest", origin=-(seen // 2))
     wished = wished - np.where(foresight > 0.0, ahead, slowed)
+    near_steps = maximum_filter1d(steps.view(np.uint8), 2 * seen - 1) > 0
+    wished = np.where(near_steps, np.minimum(wished, over_steps), wished)
     wished = np.maximum(wished, slowest)
     wished[-1] = slowest[-1]
     squares = wished * wished

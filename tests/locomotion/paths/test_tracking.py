@@ -9,7 +9,7 @@ from locomotion.errors import LocomotionError
 from locomotion.human.on_feet import RUN_GAINS
 from locomotion.paths import tracking as pt
 from locomotion.paths.gait_plan import SLOWS_WITHIN, braking_length
-from locomotion.paths.table import BRAKE, CURVATURE, GAIT
+from locomotion.paths.table import BRAKE, CURVATURE, FAST_WALK, GAIT
 
 LIMITS = pt.TrackingLimits(speeds=(2.0, 4.0), sideways=2.0)
 
@@ -217,3 +217,46 @@ def test_behind_an_obstacle_it_brakes_before_a_bend_but_lands_first():
 def test_bad_paths_are_refused(points, speed, message):
     with pytest.raises(LocomotionError, match=message):
         pt.make_path(points, speed, LIMITS, 2.0)
+
+
+def stepped(height, at=10.0, edge=0.12):
+    """A straight way of 20 m with a step in the ground, which a path shows over a little way."""
+    return [[0, 0, 0], [at - edge, 0, 0], [at + edge, 0, height], [20, 0, height]]
+
+
+@pytest.mark.parametrize("height", [0.05, -0.05, 0.15])
+def test_it_slows_down_before_a_step_in_the_ground_but_not_for_a_slope(height):
+    walk = pt.TrackingLimits(speeds=(0.3, 1.6), foresight=0.8, steps=0.85, uphill=0.0, downhill=0.0)
+    path = pt.make_path(stepped(height), 1.6, walk, 1.0)
+    along = np.linspace(0.0, path.length, len(path.table))
+    there = np.abs(along - 10.0) < 0.9
+    assert path.table[there, pt.SPEED] == pytest.approx(0.85)
+    assert path.table[(along > 4.0) & (along < 7.0), pt.SPEED] == pytest.approx(1.6)
+    free = pt.make_path(stepped(height), 1.6, replace(walk, steps=np.inf), 1.0)
+    assert free.table[there, pt.SPEED] == pytest.approx(1.6)
+    slope = pt.make_path(stepped(height, edge=1.5), 1.6, walk, 1.0)
+    assert slope.table[there, pt.SPEED] == pytest.approx(1.6)
+    crossed = pt.make_path(stepped(height), 1.6, walk, 1.0, edges=[10.0])
+    assert crossed.table[there, pt.SPEED] == pytest.approx(1.6)
+
+
+def test_a_gait_that_is_not_for_steps_ends_before_them():
+    walk = pt.TrackingLimits(speeds=(0.3, 1.25), foresight=0.8)
+    points = np.array(stepped(0.1)) * [2.0, 1.0, 1.0]
+    for steps, runs in ((np.inf, True), (0.0, False)):
+        run = pt.TrackingLimits(speeds=(2.5, 4.0), steepest=0.12, steps=steps)
+        table = pt.make_path(points, 3.5, run, 0.0, walk=walk).table
+        near = np.abs(table[:, 0] - 20.0) < 1.0
+        assert (table[near, GAIT] == pt.RUN).all() == runs
+        assert (table[:, GAIT] == pt.RUN).any()
+
+
+def test_it_walks_fast_only_where_it_could_slow_down_before_a_slope():
+    walk = pt.TrackingLimits(speeds=(0.3, 1.8), foresight=0.8, usual=1.25, deceleration=0.5)
+    points = [[0, 0, 0], [20, 0, 0], [26, 0, 0.9], [40, 0, 0.9]]
+    table = pt.make_path(points, 1.8, pt.TrackingLimits(speeds=(2.5, 4.0)), 0.0, walk=walk).table
+    fast = table[table[:, GAIT] == FAST_WALK, 0]
+    slowing = (1.8**2 - 1.25**2) / (2.0 * 0.5)
+    before = fast[fast < 20.0]
+    assert before.max() == pytest.approx(20.0 - 0.8 - slowing, abs=0.5)
+    assert before.min() < 3.0

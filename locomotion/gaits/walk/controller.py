@@ -73,6 +73,7 @@ from locomotion.gaits.walk.layout import (
     fast_share,
     pace_of,
     steep_share,
+    step_share,
     wrap,
 )
 from locomotion.gaits.walk.legs import height_in_reach, steady_foot, support_leg, swing_leg
@@ -281,7 +282,8 @@ def walk_tick(tables, ground, walk, observed, command, qpos, qvel, ctrl):
     observed: as in `locomotion.body.observed`. All float64.
     """
     steep = steep_share(walk[STEEPNESS])
-    stairs = (1.0 - steep) * steep_share(max(abs(command[SLOPE_THERE]), walk[STAIRS_AHEAD]) - walk[STEEPNESS])
+    stairs = steep_share(max(abs(command[SLOPE_THERE]), walk[STAIRS_AHEAD]) - walk[STEEPNESS])
+    stairs = (1.0 - steep) * max(stairs, step_share(walk[STAIRS_AHEAD]))
     asked = command[SPEED_ASKED]
     if stairs > 0.0 and asked > _LEAST:  # a step is a tread: who goes more slowly stops on each
         asked = max(asked, stairs * _TREAD / (tables[STAIRS, _SWING] + tables[STAIRS, _TRANSFER]))

@@ -63,8 +63,9 @@ _SHORTEST_SWING = 0.24  # [s]
 _HIGHEST_HUMP = 0.3  # [m]
 _ASIDE = 6.0  # cost of a foothold per [m] beside the wished one
 _PLACES = np.array(
-    sorted((_ASIDE * (abs(x) + abs(y)), x, y) for x in (-0.06, 0.0, 0.06) for y in (-0.05, 0.0, 0.05))
+    sorted((_ASIDE * (abs(x) + abs(y)), x, y) for x in 0.06 * np.arange(-3, 4) for y in (-0.05, 0.0, 0.05))
 )[:, [1, 2, 0]]  # where a foot may be put around the wished place [m], and what that costs: nearest first
+_FAR, _FAR_ON_STAIRS = 0.2, 0.1  # [m] before and behind that place at most
 _SPACING, _SHIFTS = 0.02, 11  # [m] between places on a flight that are looked at; how many, before and behind
 _PROFILE_AHEAD, _PROFILE_BACK = 7, 5  # of them under a foot
 _AHEAD, _HIGHEST_STEP, _LEVEL = 8, 0.23, 0.99
@@ -207,7 +208,8 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, s
     along -= (1.0 - stairs) * walk[MISSED]  # on a tread there is no room for that
     across = min(max(across, g[_NARROWEST]), _STRADDLE) * side
     x, y = sole[0] + ch * along - sh * across, sole[1] + sh * along + ch * across
-    _settle(g, ground, walk, x, y, yaw, sole[2], hip)
+    far = _FAR if stairs == 0.0 else _FAR_ON_STAIRS
+    _settle(g, ground, walk, x, y, yaw, sole[2], hip, far)
     # it is the bearing point that should be there
     foot, bears = np.empty((3, 3)), np.empty(4)
     foot_frame(walk[FOOTHOLD_YAW], walk[_NORMAL : _NORMAL + 3], foot)
@@ -215,7 +217,7 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, s
     ox = foot[0, 0] * bears[0] + foot[0, 1] * bears[1]
     oy = foot[1, 0] * bears[0] + foot[1, 1] * bears[1]
     if bears[0] != 0.0 or bears[1] != 0.0:
-        _settle(g, ground, walk, x - ox, y - oy, yaw, sole[2], hip)
+        _settle(g, ground, walk, x - ox, y - oy, yaw, sole[2], hip, far)
     walk[HUMP] = 0.0
     if stairs > 0.0:
         walk[HUMP] = stairs * rise_over_steps(g, ground, walk, ch, sh)
@@ -232,8 +234,9 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, s
 
 @kernel
 def steps_ahead(ground, sole, ch, sh):
-    """Slope [rise over run] of steps before the stance foot at ``sole`` (3,): level, not as high."""
-    level = last = sole[2]
+    """Slope [rise over run] of steps before the ground under the stance foot at ``sole`` (3,): level, not as
+    high."""
+    level = last = ground_at(ground, sole[0], sole[1], sole[2] + _BURIED)[0]
     most = 0.0
     for i in range(1, _AHEAD + 1):
         x, y = sole[0] + 0.1 * i * ch, sole[1] + 0.1 * i * sh
@@ -309,9 +312,9 @@ def risen(share, rise):
 
 
 @kernel
-def _settle(g, ground, walk, x, y, yaw, level, hip):
-    """The flattest place within a few centimetres of (x, y), and how a foot of a body that goes towards
-    ``yaw`` stands on it."""
+def _settle(g, ground, walk, x, y, yaw, level, hip, far):
+    """The flattest place within ``far`` [m] before or behind (x, y), and a few centimetres beside it, and how
+    a foot of a body that goes towards ``yaw`` stands on it."""
     walk[FOOTHOLD_YAW] = yaw
     ch, sh = math.cos(yaw), math.sin(yaw)
     walk[_SPOT], walk[_SPOT + 1], walk[_SPOT + 2] = x, y, level
@@ -321,6 +324,8 @@ def _settle(g, ground, walk, x, y, yaw, level, hip):
         ox, oy, cost = _PLACES[place]
         if cost >= least:
             break
+        if abs(ox) > far:
+            continue
         qx, qy = x + ch * ox - sh * oy, y + sh * ox + ch * oy
         z, n0, n1, n2 = ground_at(ground, qx, qy, level + _SEARCH)
         if not z > level - _SEARCH:

@@ -16,10 +16,11 @@ __all__ = [
     "SWING_TIME", "TILTED", "TOLD", "UNEVEN",
     "USUAL_SPEED", "WALKS", "WALK_HEADING", "WALK_SIZE", "WALK_SPEED", "WALK_STANCE", "WALK_STEPS",
     "WALK_TICKS", "WALK_TRIM", "WALK_TURN_RATE", "clamp", "fast_share", "first_gains", "gain_limits",
-    "new_walk", "pace_of", "steep_share", "wrap",
+    "new_walk", "pace_of", "steep_share", "step_share", "wrap",
 ]  # fmt: skip
 
 _STILL_FAST = 0.1  # [m/s] by which steps are faster than asked for, at most, in a steady walk
+_LOW_STEP, _STEP = 0.03, 0.07  # of a step of 2, and of 6 cm
 _LEVEL_SLOPE, _STEEP_SLOPE = 0.1, 0.3
 # slopes up to which a person goes as on level ground; from which as on steep
 
@@ -180,6 +181,13 @@ def wrap(angle):
 def steep_share(steepness):
     """How much a slope [rise over run] counts as steep, 0 (gone as level ground) to 1."""
     return clamp((steepness - _LEVEL_SLOPE) / (_STEEP_SLOPE - _LEVEL_SLOPE), 0.0, 1.0)
+
+
+@kernel
+def step_share(ahead):
+    """How much a step in the ground counts as stairs, 0 to 1. ``ahead``: its height per metre looked ahead,
+    as of `STAIRS_AHEAD`."""
+    return clamp((ahead - _LOW_STEP) / (_STEP - _LOW_STEP), 0.0, 1.0)
 
 
 @kernel

@@ -7,7 +7,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from locomotion.gaits.walk.footholds import bearing, foot_frame, ground_at, plan_foothold, sway
+from locomotion.gaits.walk.footholds import (
+    bearing,
+    foot_frame,
+    ground_at,
+    plan_foothold,
+    steps_ahead,
+    sway,
+)
 from locomotion.gaits.walk.layout import (
     CLOCK,
     FOOTHOLD,
@@ -20,6 +27,7 @@ from locomotion.gaits.walk.layout import (
     WALK_STANCE,
     first_gains,
     new_walk,
+    step_share,
 )
 from locomotion.ground.ground import Ground, plane_lookup
 from locomotion.training.gaits.grounds import KINDS, ground_height, training_ground
@@ -94,7 +102,21 @@ def test_foothold_keeps_off_an_edge_and_lies_on_the_ground():
         toe, heel = x + 0.12, x - 0.08
         assert z == pytest.approx(0.0 if toe < 0.32 else 0.12, abs=1e-9)
         assert np.allclose(walk[FOOTHOLD_NORMAL], [0, 0, 1])
-        assert toe < 0.32 or heel > 0.32 or min(0.32 - heel, toe - 0.32) < 0.1
+        assert toe < 0.35 or heel > 0.29, "nearly all of the sole is on one side"
+
+
+@pytest.mark.parametrize(
+    ("height", "share"), [(0.0, 0.0), (0.015, 0.0), (0.06, 1.0), (-0.06, 1.0), (0.2, 1.0)]
+)
+def test_a_step_ahead_counts_as_stairs_whatever_the_height_of_a_tilted_sole(height, share):
+    step = np.array(
+        [[x, y, z] for x, z in ((-2, 0), (0.45, 0), (0.451, height), (4, height)) for y in (-2, 2.0)]
+    )
+    faces = [f for k in range(3) for f in ([2 * k, 2 * k + 2, 2 * k + 3], [2 * k, 2 * k + 3, 2 * k + 1])]
+    ground = Ground.from_arrays(step, faces)
+    for raised in (0.0, 0.04):
+        found = steps_ahead(ground.lookup, np.array([0.0, 0.0, raised]), 1.0, 0.0)
+        assert step_share(found) == pytest.approx(share)
 
 
 @given(seed=st.integers(0, 10_000))

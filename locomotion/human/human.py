@@ -272,7 +272,7 @@ class Human(Person):
         table = make(feet.learned_limits)
         if feet.learned.holds_along(table, self.simulation):
             return table, True
-        return make(feet.limits), False
+        return make(feet.mixed_limits), False
 
     def arrive(self) -> None:
         """Take its present position as its goal."""

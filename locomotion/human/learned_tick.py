@@ -29,6 +29,9 @@ from surefoot.kernels import allocating_kernel, kernel
 
 __all__ = [
     "ACTIVE",
+    "CALMS",
+    "CALM_SPEED",
+    "CALM_TURN",
     "MAY_RUN",
     "MEMORY_SIZE",
     "MOST_TURN",
@@ -46,15 +49,21 @@ MOST_TURN = 1.2
 """[rad/s] that it turns at most."""
 SIDEWAYS = 1.2
 """[m/s^2] in a bend at most as it walks, and as a run is planned; that leaves a run some to steer with."""
+CALM_SPEED, CALM_TURN = 1.1, 0.25
+"""[m/s] and [rad/s] up to which planned steps go on from learned ones: who is faster, or turns faster, often
+falls."""
 _EAGERNESS = 2.0  # [1/s] of turning towards the heading asked for
+_ASKEW = 0.3  # [rad] off that heading from which it hardly goes on straight
+_CALMER = 0.8  # share of these limits that is asked for, so that they are reached
 _FACES = 0.1  # [rad] off that heading up to which a person at rest does not turn
 
 ACTIVE = at.STATE_SIZE + at.FELT_SIZE
-TICKS, MAY_RUN, _OWN = ACTIVE + 1, ACTIVE + 2, ACTIVE + 3
+TICKS, MAY_RUN, CALMS, _OWN = ACTIVE + 1, ACTIVE + 2, ACTIVE + 3, ACTIVE + 4
 OWN_STYLE = slice(_OWN, _OWN + at.STYLE.stop - at.STYLE.start)
 MEMORY_SIZE = OWN_STYLE.stop
 """The memory of the learned walk: the policy's memory, what it feels, whether it moves the person, for how
-many ticks, whether it may run here, and the person's own style, which it shows on level ways."""
+many ticks, whether it may run here, whether it calms down because planned steps are to follow, and the
+person's own style, which it shows on level ways."""
 _SOLE_HEIGHTS = at.STATE_SIZE + at.SOLES.start + 2
 
 
@@ -72,6 +81,10 @@ def _ask(memory, command, asked):
     turn = min(max(_EAGERNESS * off, -most), most)
     if speed == 0.0 and abs(off) < _FACES:
         turn = 0.0
+    if memory[CALMS] > 0.0:
+        most = _CALMER * CALM_TURN
+        turn = min(max(turn, -most), most)
+        speed = min(speed, _CALMER * CALM_SPEED if abs(off) < _ASKEW else SLOWEST)
     asked[at.ASKED_SPEED], asked[at.ASKED_TURN] = speed, turn
 
 

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from locomotion.body.person import PersonIndex
 from locomotion.gaits.policy import layout as at
-from locomotion.gaits.policy.kernel import Parts, feel, new_memory
-from locomotion.gaits.policy.law import LIFT_OFF, RUNS_FROM
+from locomotion.gaits.policy.kernel import Parts, feel, feet_yaw, new_memory
+from locomotion.gaits.policy.law import BRAKING, LIFT_OFF, RUNS_FROM
 from locomotion.gaits.policy.level_ground import is_level, is_level_around
 from locomotion.gaits.policy.skill import PolicySkill
 from locomotion.gaits.policy.stand import stand_still
@@ -39,6 +39,9 @@ from locomotion.gaits.walk.layout import (
 )
 from locomotion.human.learned_tick import (
     ACTIVE,
+    CALM_SPEED,
+    CALM_TURN,
+    CALMS,
     MAY_RUN,
     MEMORY_SIZE,
     MOST_TURN,
@@ -55,8 +58,9 @@ from locomotion.paths.follower import PathFollower
 
 __all__ = ["RUN_STOPS", "LearnedWalk", "memory_of", "memory_of_run"]
 
-_SEES, _LEAVES = 2.6, 1.6
-# [m] of level ground ahead with which it takes over, and without which it gives back
+_SEES, _LEAVES, _LATEST = 2.6, 1.6, 0.9
+# [m] of level ground ahead with which it takes over; without which, once it is calm, it gives back; and
+# without which it gives back in any case
 _BEHIND = 0.5  # [m] behind it that have to be level, too: a foot is still there
 _AT_LEAST, _ASKEW = 0.5, 0.25  # [m/s] and [rad] off its way with which it takes over
 _SHARP = 0.6  # [rad] off its way from which it turns only where the ground is level all around
@@ -175,7 +179,7 @@ class LearnedWalk:
             return bool(is_level_around(body.lookup, *body.position.tolist()))
         if way is None:
             return False
-        far = _LEAVES if active else _SEES
+        far = self._leaves if active else _SEES
         off = abs(wrap(command[HEADING_ASKED] - walk[WALK_HEADING]))
         if active and off > _SHARP and not is_level_around(body.lookup, *body.position.tolist()):
             return False  # it drifts as it turns
@@ -191,6 +195,27 @@ class LearnedWalk:
             return False
         begin, z = max(arc - _BEHIND, 0.0), float(body.position[2])
         return bool(is_level(body.lookup, rows, way.length, begin, arc + far, z))
+
+    @property
+    def _leaves(self) -> float:
+        """[m] of level ground that it needs: it slows down before it gives back."""
+        return _LEAVES + max(self.speed**2 - CALM_SPEED**2, 0.0) / (2.0 * BRAKING)
+
+    def calms_down(self, follower: PathFollower, body: Simulation) -> bool:
+        """Whether it has to become slower or straighter before planned steps can go on from here, and has the
+        room for that. From now on it does so."""
+        way, arc, z = follower.path, follower.arc, float(body.position[2])
+        turns = abs(self._state.item(at.TURN_RATE)) > CALM_TURN
+        calms = False
+        if way is not None and not self.stands and (turns or self.speed > CALM_SPEED):
+            begin, end = max(arc - _BEHIND, 0.0), arc + _LATEST
+            calms = bool(is_level(body.lookup, way.table, way.length, begin, end, z))
+        self.memory[CALMS] = float(calms)
+        return calms
+
+    def go_on(self) -> None:
+        """It need not calm down any more."""
+        self.memory[CALMS] = 0.0
 
     def holds_along(self, way: path.PathTable, body: Simulation) -> bool:
         """Whether it can move a person along the whole ``way``, which begins where the person is."""
@@ -242,14 +267,17 @@ class LearnedWalk:
 
     def take_over(self, body: Simulation, walk: NDArray) -> None:
         """Move a person from now on that walks as planned and has just put a foot down, or stands."""
-        self._begin(memory_of(walk, body.data.qvel))
+        memory = memory_of(walk, body.data.qvel)
+        if walk[PHASE] == STANDING:
+            memory[at.HEADING] = feet_yaw(self._felt)
+        self._begin(memory)
 
     def _begin(self, memory: NDArray[np.float64]) -> None:
         """Move a person from now on, in its style, as of this ``memory`` (STATE_SIZE,) of a usual one."""
         style = self._state[at.STYLE].copy()
         self._state[:] = memory
         self._state[at.STYLE] = style
-        self.memory[ACTIVE], self.memory[TICKS] = 1.0, 0.0
+        self.memory[[ACTIVE, TICKS, CALMS]] = 1.0, 0.0, 0.0
 
     def give_back(self, body: Simulation, walk: NDArray, fastest: float) -> None:
         """Let the planned walk go on, at ``fastest`` [m/s] at most, just after a foot came down, or in a

@@ -100,6 +100,7 @@ class _Made(NamedTuple):
     braking_steps: tuple[NDArray, ...]
     limits: TrackingLimits
     learned_limits: TrackingLimits
+    mixed_limits: TrackingLimits
     walk_limits: TrackingLimits
     learned_walk_limits: TrackingLimits
 
@@ -121,15 +122,16 @@ def _made_of(
     return _Made(
         speed_up.run_tables(run), slow_down.run_tables(run), brake.run_tables(run),
         slow_down.walk_tables(walk), brake.walk_tables(walk), runs,
-        replace(runs, sideways=SIDEWAYS, deceleration=_GENTLY, slowing=_GENTLY, rest=_RESTS), walks,
+        replace(runs, sideways=SIDEWAYS, deceleration=_GENTLY, slowing=_GENTLY, rest=_RESTS),
+        replace(runs, steps=0.0), walks,
         replace(walks, deceleration=BRAKING),
     )  # fmt: skip
 
 
 class OnFeet:
     """``run_skill``, ``walk_skill``, ``slow_down_skill``, ``speed_up_skill``, ``brake_skill``: how it moves.
-    ``limits``, ``learned_limits``, ``walk_limits``: paths that it can follow running, as planned and as
-    learned, and walking. ``walk``: memory of the walking controller
+    ``limits``, ``learned_limits``, ``mixed_limits``, ``walk_limits``: paths that it can follow running, as
+    planned, as learned, and partly as learned, and walking. ``walk``: memory of the walking controller
     (`locomotion.gaits.walk.layout`). ``learned``: the learned walk, None if all walking is planned.
     ``slowing``: [m/s^2] of slowing down to a walk, 0 if it does not.
     ``brakes``: whether it stops in the shortest distance. ``hurries``: whether it accelerates into its
@@ -152,8 +154,8 @@ class OnFeet:
         made = _made_of(run, walk, slow_down, speed_up, brake, policy is not None)
         self._quick_run, self._slow_run, self._braking_run = made.quick_run, made.slow_run, made.braking_run
         self._first_steps, self._braking_steps = made.first_steps, made.braking_steps
-        self.limits, self.learned_limits, self.walk_limits = (
-            made.limits, made.learned_limits, made.walk_limits
+        self.limits, self.learned_limits, self.mixed_limits, self.walk_limits = (
+            made.limits, made.learned_limits, made.mixed_limits, made.walk_limits
         )  # fmt: skip
         self._learned_walk_limits = made.learned_walk_limits
         self._slippery = load_slippery_roll()
@@ -375,7 +377,9 @@ class OnFeet:
             self.residual.forget()
             self.landing.forget()
             learned.take_over(body, walk)
-        elif learned.active and not suits:
+        elif suits:
+            learned.go_on()
+        elif learned.active and not (usual and learned.calms_down(follower, body)):
             learned.give_back(body, walk, self.walk_skill.speed)
 
     def tick(self, body: Simulation, command: NDArray) -> None:

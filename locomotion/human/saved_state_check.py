@@ -180,8 +180,15 @@ _LEARNED = Slots(
         *((k, _STYLE) for k in range(learned_walk.OWN_STYLE.start, learned_walk.OWN_STYLE.stop)),
         (learned_walk.ACTIVE, FLAG),
         (learned_walk.TICKS, COUNT),
+        (learned_walk.CALMS, FLAG),
     ],
-    whole=(policy.RUNNING, policy.STARTED, learned_walk.ACTIVE, learned_walk.TICKS),
+    whole=(
+        policy.RUNNING,
+        policy.STARTED,
+        learned_walk.ACTIVE,
+        learned_walk.TICKS,
+        learned_walk.CALMS,
+    ),
 )
 _WALK = 2  # place of the planned walk, which the learned one follows
 

@@ -29,6 +29,7 @@ __all__ = [
     "SET_OFF",
     "SLOWS_WITHIN",
     "Gaits",
+    "Way",
     "braking_length",
     "hard_again",
     "plan_gaits",
@@ -61,10 +62,17 @@ class Gaits(NamedTuple):
     at: NDArray[np.int64]
 
 
+class Way(NamedTuple):
+    """A path of n points: its ``table`` (n, 8); their arc lengths ``at`` (n,) [m]; ``steps`` (n,): where the
+    ground steps up or down."""
+
+    table: NDArray[np.float64]
+    at: NDArray[np.float64]
+    steps: NDArray[np.bool_]
+
+
 def plan_gaits(
-    table: NDArray[np.float64],
-    at: NDArray[np.float64],
-    steps: NDArray[np.bool_],
+    way: Way,
     speed: float,
     limits: TrackingLimits,
     walk: TrackingLimits,
@@ -72,8 +80,9 @@ def plan_gaits(
     present_speed: float,
     running: bool,
 ) -> Gaits:
-    """Write the gaits into ``table`` (n, 8); ``at`` (n,) [m]: arc lengths of its points, with the limits at
-    each; ``steps`` (n,): where the ground steps up or down. Other arguments as in `tracking.make_path`."""
+    """Write the gaits into the table of ``way``; gives the limits at each point. Other arguments as in
+    `tracking.make_path`."""
+    table, at, steps = way
     fastest = min(max(speed, limits.speeds[0]), limits.speeds[1])
     slowing = _length_of_slowing(fastest, limits, walk)
     slowest = 0.5 * (walk.speeds[1] + limits.speeds[0])  # slower is nearer to a walk

@@ -11,7 +11,7 @@ from scipy.ndimage import maximum_filter1d
 
 from locomotion.errors import LocomotionError
 from locomotion.paths.command import HEADING_ASKED, SIDEWAYS_ASKED, SLOPE_THERE, SPEED_ASKED
-from locomotion.paths.gait_plan import Gaits, hard_again, plan_gaits
+from locomotion.paths.gait_plan import Gaits, Way, hard_again, plan_gaits
 from locomotion.paths.table import (
     CURVATURE,
     GAIT,
@@ -114,7 +114,7 @@ def make_path(
     table[:, GAIT] = RUN
     gaits = Gaits((limits,), np.zeros(count, np.int64))
     if walk is not None:
-        gaits = plan_gaits(table, at, steps, speed, limits, walk, crossed, present_speed, running)
+        gaits = plan_gaits(Way(table, at, steps), speed, limits, walk, crossed, present_speed, running)
     _plan_speed(table, length / (count - 1), steps, speed, gaits, present_speed)
     return PathTable(table, length, distinct[-1].copy())
 

@@ -93,7 +93,7 @@ class _StateHeader(Header):
 
 STATE_FILE = Schema(
     kind="surefoot world state",
-    version=21,
+    version=22,
     header=_StateHeader,
     arrays={dtype: Flags(dtype) if dtype == "bool" else Array(dtype, (dtype,)) for dtype in DTYPES},
     remedy="save the world again",

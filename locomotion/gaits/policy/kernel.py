@@ -88,7 +88,7 @@ from locomotion.gaits.policy.law import (
 )
 from surefoot.kernels import allocating_kernel, kernel
 
-__all__ = ["Parts", "decide_tick", "feel", "new_memory"]
+__all__ = ["Parts", "decide_tick", "feel", "feet_yaw", "new_memory"]
 
 _N = len(at.JOINTS)
 _COLUMNS = np.array([JOINT_NAMES.index(name) for name in at.JOINTS])
@@ -134,6 +134,16 @@ def _wrap(angle):
 def _yaw(qpos):
     w, x, y, z = qpos[3], qpos[4], qpos[5], qpos[6]
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+@kernel
+def feet_yaw(felt):
+    """Where both feet together point [rad]; ``felt`` (FELT_SIZE,)."""
+    x, y = 0.0, 0.0
+    for side in range(2):  # from the heel to the ball
+        x += felt[9 * side + 3] - felt[9 * side]
+        y += felt[9 * side + 4] - felt[9 * side + 1]
+    return math.atan2(y, x)
 
 
 @kernel

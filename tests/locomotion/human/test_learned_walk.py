@@ -14,6 +14,7 @@ from locomotion.gaits.policy.skill import load_policy
 from locomotion.gaits.walk.layout import WALK_STEPS
 from locomotion.ground.ground import Ground
 from locomotion.human.human import Human
+from locomotion.human.learned_tick import CALM_SPEED, CALM_TURN
 from locomotion.human.saved_state_check import check_person
 from locomotion.rehearsal.choices import BRAKINGS
 from locomotion.rehearsal.trials import ComesToRest, at_once
@@ -168,6 +169,23 @@ def test_who_is_put_on_level_ground_stands_straight_and_stays():
     assert (human.qpos[7:][knees] < np.radians(20.0)).all()
     assert np.linalg.norm(human.com - place) < 0.03
     assert human.status == "standing"
+
+
+@pytest.mark.parametrize("bend", [[], [[2, 0, 0], [3.5, 1, 0]]])
+def test_it_is_slow_and_straight_before_planned_steps_go_on(bend):
+    human = walker(with_kerb())
+    human.reset((-4.0, 0.0, 0.0), 0.0)
+    human.follow([[-4, 0, 0], *bend, [12, 1, 0.1]], 1.8)
+    before, gave_back = human.on_feet.learned_memory.copy(), []
+    while human.status == "walking" and human.time < 40.0:
+        was = human.on_feet.walks_as_learned
+        before[:] = human.on_feet.learned_memory
+        human.tick()
+        if was and not human.on_feet.walks_as_learned:
+            gave_back.append(before[[at.TOLD, at.TURN_RATE]])
+    assert human.status == "arrived" and gave_back
+    assert max(told for told, _ in gave_back) < CALM_SPEED + 0.02
+    assert max(abs(turn) for _, turn in gave_back) < CALM_TURN + 0.05
 
 
 def test_who_is_put_beside_a_kerb_stands_as_planned():

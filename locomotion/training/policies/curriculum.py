@@ -98,7 +98,7 @@ RUNNING = (
         changes=3.0, waits=False, noise=(0.1, 0.07), weights=_FIRM,
     ),
     Stage(
-        "keeping up", 10_000_000, (1.0, 5.3), turn=1.0, push=300.0, slope=0.05, runs=True, from_starts=0.4,
+        "keeping up", 8_000_000, (1.0, 5.3), turn=1.0, push=300.0, slope=0.05, runs=True, from_starts=0.4,
         changes=1.5, steadies=True, noise=(0.1, 0.075), fall=40.0, longest=600,
         weights={"speed": 0.4, "nears": 0.3, "catches": 0.6, "impact": -0.4, "pace": -1.5, "slip": -1.0},
     ),
@@ -107,7 +107,7 @@ RUNNING = (
         changes=1.5, traits=0.5, steadies=True, noise=(0.1, 0.075), fall=40.0, longest=600,
         weights={
             "pose": 0.5, "feet": 0.3, "speed": 0.4, "nears": 0.3, "catches": 0.6, "impact": -0.8,
-            "pace": -3.0, "slip": -1.5, "brush": -1.5,
+            "pace": -5.0, "slip": -1.5, "brush": -1.5,
         },
     ),
 )  # fmt: skip
@@ -120,20 +120,28 @@ STANDING = (
         noise=(0.1, 0.06), timestep=_COARSE, longest=250, weights={"slip": -1.0},
     ),
     Stage(
-        "stand, pushed", 500_000, (0.0, 0.0), push=300.0, slope=0.04, stand=1.0, stands=True, from_starts=0.7,
-        noise=(0.06, 0.04), longest=1000, weights={"slip": -1.0, "change": -0.3},
+        "stand, pushed", 1_500_000, (0.0, 0.0), push=300.0, slope=0.04, stand=1.0, stands=True,
+        from_starts=0.7, noise=(0.06, 0.04), longest=1000, weights={"slip": -1.0, "change": -0.3},
     ),
 )  # fmt: skip
 """Standing after the walk came to rest."""
+
+_SOFT = {
+    "pose": 0.5, "load": 0.6, "rise": 0.5, "impact": 0.0, "blow": -0.5, "slip": -2.0, "change": -0.1,
+    "nears": 0.3, "catches": 0.6, "pace": -1.0,
+}  # fmt: skip
 
 CATCHING = (
     Stage(
         "thrown off a stand", 8_000_000, (0.3, 2.2), turn=1.3, push=300.0, slope=0.05, stand=0.3,
         from_starts=0.5, changes=2.5, traits=0.5, waits=False, noise=(0.1, 0.075), fall=40.0, longest=500,
-        weights={
-            "load": 0.6, "rise": 0.5, "impact": 0.0, "blow": -0.5, "slip": -2.0, "change": -0.1,
-            "nears": 0.3, "catches": 0.6, "pace": -1.0,
-        },
+        weights=_SOFT,
+    ),
+    Stage(
+        "as in crowds", 5_000_000, (0.3, 2.0), turn=1.3, push=300.0, slope=0.05, stand=0.3,
+        from_starts=0.4, changes=0.8, traits=0.5, steadies=True, noise=(0.09, 0.075), fall=40.0, longest=500,
+        weights=_SOFT,
     ),
 )  # fmt: skip
-"""The walk once more, with softer steps, and with people whom a push has just thrown off their stand."""
+"""The walk once more, with softer steps, and with people whom a push has just thrown off their stand; then
+under the rules of worlds, with orders that change as fast as in a crowd."""

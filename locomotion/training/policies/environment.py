@@ -341,6 +341,8 @@ class Environment:
         velocity[:, 0] += (speed - memory[:, SPEED]) * memory[:, FAST]  # a run is to come to the speed told
         joints = law.styled(memory, place.read(reference.joints), place.read_rows(self.motion.means))
         joints[:, HIP_ROTATIONS] += law.turned_in(turned)
+        spin = place.read(reference.spin)
+        spin[:, 2] += memory[:, TURN_RATE] * memory[:, RUNNING]
         rates = place.read(reference.rates)
         rates[:, SWINGING] *= 1.0 + memory[:, ARM_SWING, None]
         return Moment(
@@ -349,7 +351,7 @@ class Environment:
             feet=feet[:, [0, 2, 3, 5]],
             up=up[:, :2] - wanted,
             yaw=law.wrap(yaw - memory[:, HEADING] - facing),
-            spin=self.qvel[:, 3:6] - place.read(reference.spin),
+            spin=self.qvel[:, 3:6] - spin,
             height=self.qpos[:, 2] - root[:, 1],
             velocity=velocity,
             forces=forces,

@@ -111,7 +111,7 @@ def rewards(m: Moment) -> dict[str, NDArray[np.float64]]:
     off = 4.0 * (m.velocity[:, :2] ** 2).sum(1)
     off += 25.0 * (m.memory[:, LAG_AHEAD] ** 2 + 0.5 * m.memory[:, LAG_LEFT] ** 2)
     feet = m.feet * np.array([1.0, 4.0, 1.0])
-    root = 10.0 * (m.up**2).sum(1) + 4.0 * m.yaw**2 + 120.0 * m.height**2 + 0.1 * (m.spin**2).sum(1)
+    root = 10.0 * (m.up**2).sum(1) + 8.0 * m.yaw**2 + 120.0 * m.height**2 + 0.1 * (m.spin**2).sum(1)
     per_foot = m.forces.reshape(*m.forces.shape[:2], 2, 2).sum(3) / BODY_WEIGHT
     firm = np.where(m.memory[:, FAST] > 0.0, _FIRM_RUN, _FIRM)
     over = np.clip(per_foot.max(1) - firm[:, None], 0.0, 2.0)

@@ -122,6 +122,19 @@ def test_a_runners_speed_is_off_that_told_whatever_pose_is_shown(both):
     np.testing.assert_allclose(environment.moment(*nothing).velocity[:, 0], as_told, atol=0.3)
 
 
+def test_who_turns_as_told_spins_as_the_reference(reference):
+    environment = Environment(reference, replace(WALKING[2], stand=0.0), 8, 3)
+    nothing = np.zeros((8, 1, 4)), environment.soles, np.zeros((8, ACTIONS))
+    environment.memory[:, TURN_RATE] = 0.0
+    straight = environment.moment(*nothing).spin
+    turn = np.linspace(-1.0, 1.0, 8)
+    environment.memory[:, TURN_RATE] = turn
+    environment.qvel[:, 5] += turn
+    np.testing.assert_allclose(environment.moment(*nothing).spin, straight)
+    environment.qvel[:, 5] -= turn
+    np.testing.assert_allclose(environment.moment(*nothing).spin[:, 2], straight[:, 2] - turn)
+
+
 def decides_nothing(seen):
     return np.zeros((len(seen), ACTIONS))
 

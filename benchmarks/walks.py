@@ -8,6 +8,7 @@ not hold), the other only the planned one:
 - orders, orders on rolling ground, orders on steps: a minute of goals, stops and turns at 0.5 to 2 m/s, a new
   one every 1 to 6 s; waves with slopes of up to 0.15; platforms 6 and 12 cm high
 - short ways: goals 0.3 to 1.5 m away in any direction, one after the other, for a minute
+- kerb: there and back at 0.8 to 4.5 m/s over a kerb of 5 to 15 cm
 - slope, stairs: up and down over 2 to 16 degrees; over seven steps of 0.1 to 0.18 m
 - rooms: ways through doors 1.2 m wide and around corners
 - pushed: a walk with a push of 50 to 200 N for 0.1 s from any side every 2 to 4 s, for half a minute
@@ -186,14 +187,14 @@ def short_ways(stage: Stage, rng: np.random.Generator) -> None:
             stage.go_on(float(rng.uniform(0.0, 2.0)))
 
 
-def up_and_down(stage: Stage, rng: np.random.Generator) -> None:
-    """From one end to the other and back."""
+def up_and_down(stage: Stage, rng: np.random.Generator, speeds: tuple[float, float] = (0.8, 1.8)) -> None:
+    """From one end to the other and back, at ``speeds`` [m/s]."""
     low, high = stage.world.graph.terrain.bounds
     aside = rng.uniform(-_NEAR, _NEAR, 2)
     ends = [(low[0] + 2.0, aside[0], low[2]), (high[0] - 2.0, aside[1], high[2])]
     agent = stage.spawn(ends[0], float(rng.uniform(-1.0, 1.0)))
     for end in (ends[1], ends[0]):
-        stage.go(agent, end, float(rng.uniform(0.8, 1.8)))
+        stage.go(agent, end, float(rng.uniform(*speeds)))
 
 
 def ways(stage: Stage, rng: np.random.Generator) -> None:
@@ -270,6 +271,11 @@ def _stairs(rng: np.random.Generator) -> navmesh.NodeGraph:
     return _profile([*x, x[-1] + tread + 5.0], [*z, z[-1]], 2.0)
 
 
+def _kerb(rng: np.random.Generator) -> navmesh.NodeGraph:
+    kerb = float(rng.uniform(0.05, 0.15))
+    return _profile([0.0, 15.0, 15.0, 30.0], [0.0, 0.0, kerb, kerb], 3.0)
+
+
 def _long_hall(rng: np.random.Generator) -> navmesh.NodeGraph:
     return _profile([0.0, 40.0], [0.0, 0.0], 5.0)
 
@@ -281,6 +287,7 @@ SCENES: dict[str, tuple[Callable[[np.random.Generator], navmesh.NodeGraph], Scen
     "short ways": (lambda rng: hall(), short_ways),
     "slope": (_slope, up_and_down),
     "stairs": (_stairs, up_and_down),
+    "kerb": (_kerb, partial(up_and_down, speeds=(0.8, 4.5))),
     "rooms": (lambda rng: rooms(), ways),
     "pushed": (lambda rng: hall(), pushed),
     "pushed where it stands": (lambda rng: hall(), pushed_standing),

@@ -65,7 +65,8 @@ _ASIDE = 6.0  # cost of a foothold per [m] beside the wished one
 _PLACES = np.array(
     sorted((_ASIDE * (abs(x) + abs(y)), x, y) for x in 0.06 * np.arange(-3, 4) for y in (-0.05, 0.0, 0.05))
 )[:, [1, 2, 0]]  # where a foot may be put around the wished place [m], and what that costs: nearest first
-_FAR, _FAR_ON_STAIRS = 0.2, 0.1  # [m] before and behind that place at most
+_FAR, _FAR_ON_STAIRS, _FLIGHT = 0.2, 0.1, 0.2
+# [m] before and behind that place at most, and on a flight of stairs: from this slope of steps ahead on
 _SPACING, _SHIFTS = 0.02, 11  # [m] between places on a flight that are looked at; how many, before and behind
 _PROFILE_AHEAD, _PROFILE_BACK = 7, 5  # of them under a foot
 _AHEAD, _HIGHEST_STEP, _LEVEL = 8, 0.23, 0.99
@@ -208,7 +209,7 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, s
     along -= (1.0 - stairs) * walk[MISSED]  # on a tread there is no room for that
     across = min(max(across, g[_NARROWEST]), _STRADDLE) * side
     x, y = sole[0] + ch * along - sh * across, sole[1] + sh * along + ch * across
-    far = _FAR if stairs == 0.0 else _FAR_ON_STAIRS
+    far = _FAR if walk[STAIRS_AHEAD] < _FLIGHT else _FAR_ON_STAIRS
     _settle(g, ground, walk, x, y, yaw, sole[2], hip, far)
     # it is the bearing point that should be there
     foot, bears = np.empty((3, 3)), np.empty(4)

@@ -50,8 +50,8 @@ MOST_TURN = 1.2
 SIDEWAYS = 1.2
 """[m/s^2] in a bend at most as it walks, and as a run is planned; that leaves a run some to steer with."""
 CALM_SPEED, CALM_TURN = 1.1, 0.25
-"""[m/s] and [rad/s] up to which planned steps go on from learned ones: who is faster, or turns faster, often
-falls."""
+"""[m/s] and [rad/s]: greatest speed and turn rate with which planned steps follow learned ones. Faster people
+often fall there."""
 _EAGERNESS = 2.0  # [1/s] of turning towards the heading asked for
 _ASKEW = 0.3  # [rad] off that heading from which it hardly goes on straight
 _CALMER = 0.8  # share of these limits that is asked for, so that they are reached

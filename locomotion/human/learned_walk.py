@@ -100,6 +100,13 @@ def memory_of(walk: NDArray[np.float64], qvel: NDArray[np.float64]) -> NDArray[n
     return memory
 
 
+def _is_level_ahead(way: path.PathTable, arc: float, far: float, body: Simulation) -> bool:
+    """Whether the ground is level along the ``way`` from a little behind ``arc`` to ``far`` ahead of it
+    [m]."""
+    begin, z = max(arc - _BEHIND, 0.0), float(body.position[2])
+    return bool(is_level(body.lookup, way.table, way.length, begin, arc + far, z))
+
+
 class LearnedWalk:
     """``skill``: the networks. ``memory``: (MEMORY_SIZE,), all that has to be saved."""
 
@@ -193,8 +200,7 @@ class LearnedWalk:
         ahead = rows[first : first + round((far + _ROOM) / path.SPACING)]
         if moving and not self.may_run and (ahead[:, path.GAIT] == path.RUN).any():
             return False
-        begin, z = max(arc - _BEHIND, 0.0), float(body.position[2])
-        return bool(is_level(body.lookup, rows, way.length, begin, arc + far, z))
+        return _is_level_ahead(way, arc, far, body)
 
     @property
     def _leaves(self) -> float:
@@ -204,12 +210,9 @@ class LearnedWalk:
     def calms_down(self, follower: PathFollower, body: Simulation) -> bool:
         """Whether it has to become slower or straighter before planned steps can go on from here, and has the
         room for that. From now on it does so."""
-        way, arc, z = follower.path, follower.arc, float(body.position[2])
-        turns = abs(self._state.item(at.TURN_RATE)) > CALM_TURN
-        calms = False
-        if way is not None and not self.stands and (turns or self.speed > CALM_SPEED):
-            begin, end = max(arc - _BEHIND, 0.0), arc + _LATEST
-            calms = bool(is_level(body.lookup, way.table, way.length, begin, end, z))
+        way, turns = follower.path, abs(self._state.item(at.TURN_RATE)) > CALM_TURN
+        hasty = not self.stands and (turns or self.speed > CALM_SPEED)
+        calms = way is not None and hasty and _is_level_ahead(way, follower.arc, _LATEST, body)
         self.memory[CALMS] = float(calms)
         return calms
 
@@ -235,9 +238,7 @@ class LearnedWalk:
         first = round(arc / way.length * (len(rows) - 1))
         ahead = rows[first : first + round(far / path.SPACING)]
         runs = ahead[:, path.SPEED] > RUNS_FROM if self.runs else ahead[:, path.GAIT] == path.RUN
-        begin, z = max(arc - _BEHIND, 0.0), float(body.position[2])
-        may = runs.any() and is_level(body.lookup, rows, way.length, begin, arc + far, z)
-        self.memory[MAY_RUN] = float(may)
+        self.memory[MAY_RUN] = float(runs.any() and _is_level_ahead(way, arc, far, body))
 
     def stand(self, body: Simulation, position: NDArray[np.float64], yaw: float) -> None:
         """Let a person that has been put down as planned stand as learned instead, on the ground point

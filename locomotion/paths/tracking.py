@@ -112,10 +112,10 @@ def make_path(
         table[np.abs(at - edge) < _STEP_REACH, SLOPE] = 0.0
         steps[np.abs(at - edge) < _STEP_REACH] = False
     table[:, GAIT] = RUN
-    gaits = Gaits((limits,), np.zeros(count, np.int64))
+    way, gaits = Way(table, at, steps), Gaits((limits,), np.zeros(count, np.int64))
     if walk is not None:
-        gaits = plan_gaits(Way(table, at, steps), speed, limits, walk, crossed, present_speed, running)
-    _plan_speed(table, length / (count - 1), steps, speed, gaits, present_speed)
+        gaits = plan_gaits(way, speed, limits, walk, crossed, present_speed, running)
+    _plan_speed(way, length / (count - 1), speed, gaits, present_speed)
     return PathTable(table, length, distinct[-1].copy())
 
 
@@ -141,15 +141,9 @@ def _steps(table: NDArray[np.float64], step: float) -> NDArray[np.bool_]:
     return found
 
 
-def _plan_speed(
-    table: NDArray[np.float64],
-    step: float,
-    steps: NDArray[np.bool_],
-    speed: float,
-    gaits: Gaits,
-    present: float,
-) -> None:
-    """``gaits``: the limits at each point of the path; ``steps`` (n,): where the ground steps up or down."""
+def _plan_speed(way: Way, step: float, speed: float, gaits: Gaits, present: float) -> None:
+    """``gaits``: the limits at each point of the path."""
+    table, _, steps = way
     each = [
         (*g.speeds, g.sideways, *g.tight, g.acceleration, g.deceleration, g.uphill, g.downhill, g.foresight,
          g.steps)

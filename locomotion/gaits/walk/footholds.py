@@ -75,6 +75,8 @@ _DECIDED, _SAME = 0.4, 0.05  # share of a swing from which it goes to one tread;
 _MARGIN = 0.04  # [m] above what toes and heel pass
 _LONGEST_SWING = 1.5  # times the usual one, on stairs
 _BURIED = 0.2  # [m] that a corner of the sole may be below the ground
+_CROSSES = 0.08
+# [m] that legs would have to cross, from which a step is made sooner, to have the next one, but on a flight
 _STRIDE_BACK, _STRIDE, _STRADDLE = -0.45, 0.8, 0.5  # [m] what the legs reach
 _TILT_DOWN = 0.8  # slope downhill to which a foot turns
 
@@ -169,8 +171,8 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, s
     """Write `FOOTHOLD`, its normal and yaw, and `SWING_TIME` into ``walk``, for the present capture point.
 
     sole (3,): bearing point of the stance foot [m]; hip (3,): where the swing leg's hip will be [m]; stairs:
-    how much the way is one over steps, 0 to 1. A step that would be too long is made sooner; one that the
-    legs cannot make is cut. Then the flattest place near it is taken.
+    how much the way is one over steps, 0 to 1. A step that would be too long, or cross the other leg, is made
+    sooner; one that the legs cannot make is cut. Then the flattest place near it is taken.
     """
     g = gains
     yaw = walk[WALK_HEADING] + 0.5 * walk[WALK_TURN_RATE] * (g[_SWING] + g[_TRANSFER])
@@ -182,6 +184,8 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, s
     to_x, to_y = capture_x - sole[0] - rest_x, capture_y - sole[1] - rest_y
     left = walk[SWING_TIME] - walk[CLOCK]
     late = g[_LATE] + 0.5 * g[_TRANSFER]
+    walk[STAIRS_AHEAD] = steps_ahead(ground, sole, ch, sh)
+    flight = walk[STAIRS_AHEAD] >= _FLIGHT
     along = across = 0.0
     shortest = min(_SHORTEST_SWING, g[_SWING])
     while True:
@@ -189,11 +193,11 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, s
         along = (ch * to_x + sh * to_y) * growth - ahead
         across = ((-sh * to_x + ch * to_y) * growth - aside) * side + inside
         too_far = along > g[_LONGEST] or along < -0.3 or across > 0.42
+        too_far = too_far or (across < g[_NARROWEST] - _CROSSES and not flight)
         if not (too_far and left > 0.04 and walk[CLOCK] + left > shortest):
             break
         left -= 0.02
     along = min(max(along, _STRIDE_BACK), _STRIDE)
-    walk[STAIRS_AHEAD] = steps_ahead(ground, sole, ch, sh)
     if stairs > 0.0:
         # a tread is where it is: the step is made sooner or later instead
         off = tread_shift(g, ground, walk, sole, ch, sh, along, across * side)
@@ -209,7 +213,7 @@ def plan_foothold(gains, ground, walk, capture_x, capture_y, omega, sole, hip, s
     along -= (1.0 - stairs) * walk[MISSED]  # on a tread there is no room for that
     across = min(max(across, g[_NARROWEST]), _STRADDLE) * side
     x, y = sole[0] + ch * along - sh * across, sole[1] + sh * along + ch * across
-    far = _FAR if walk[STAIRS_AHEAD] < _FLIGHT else _FAR_ON_STAIRS
+    far = _FAR_ON_STAIRS if flight else _FAR
     _settle(g, ground, walk, x, y, yaw, sole[2], hip, far)
     # it is the bearing point that should be there
     foot, bears = np.empty((3, 3)), np.empty(4)

@@ -89,6 +89,23 @@ def test_foothold_catches_a_pushed_pendulum():
     assert period > 0.3
 
 
+@pytest.mark.parametrize("stance", [-1.0, 1.0])
+def test_a_step_is_made_sooner_where_the_body_drifts_over_the_foot_that_bears(stance):
+    """The feet do not cross: the other foot comes down at once, and the step after that catches the body."""
+    gains, omega = first_gains(), 3.3
+    swings = []
+    for drift in (0.0, 0.02, 0.06, 0.12):  # of the capture point beyond the foot, outwards
+        walk, foot = new_walk(), np.array([0.0, 0.085 * stance, 0.0])
+        walk[WALK_STANCE], walk[PHASE], walk[SWING_TIME] = stance, SINGLE, gains[0]
+        hip = foot + np.array([0.0, -stance * 0.17, 0.85])
+        _, inside = sway(gains, omega, 0.0)
+        capture = foot[1] - stance * (inside * math.exp(-omega * (gains[0] + 0.5 * gains[1])) - drift)
+        plan_foothold(gains, plane_lookup(), walk, 0.0, capture, omega, foot, hip, 0.0)
+        assert stance * (foot[1] - walk[FOOTHOLD][1]) > 0.0
+        swings.append(walk[SWING_TIME])
+    assert swings[0] == swings[1] == gains[0] and swings[3] <= swings[2] < gains[0]
+
+
 def test_foothold_keeps_off_an_edge_and_lies_on_the_ground():
     step = np.array([[-2, -2, 0], [0.32, -2, 0], [0.32, 2, 0], [-2, 2, 0], [0.32, -2, 0.12], [4, -2, 0.12]])
     step = np.vstack([step, [[4, 2, 0.12], [0.32, 2, 0.12]]]).astype(float)
